@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <coxeter/vertex_table.h>
+
+#include <cstring>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include <coxeter/error.h>
+
+namespace whitney::coxeter {
+
+VertexTable::VertexTable(int ambient_dim) : dim_(ambient_dim), weights_(ambient_dim + 1) {
+  std::uint64_t sum = 0;
+  for (int i = 0; i < dim_; ++i) {
+    weights_[i] = mix64(0x9e3779b97f4a7c15ull * (i + 1)) | 1;
+    sum += weights_[i];
+  }
+  weights_[dim_] = 0 - sum;
+}
+
+std::uint64_t VertexTable::form_of(const std::int32_t* z) const {
+  std::uint64_t form = 0;
+  for (int i = 0; i < dim_; ++i) form += weights_[i] * static_cast<std::uint64_t>(std::int64_t{z[i]});
+  return form;
+}
+
+std::uint32_t VertexTable::find(const std::int32_t* z, std::uint64_t form) const {
+  return slots_.find(mix64(form), [&](std::uint32_t index) {
+    return forms_[index] == form && std::memcmp(coordinates(index), z, dim_ * sizeof *z) == 0;
+  });
+}
+
+std::uint32_t VertexTable::intern(const std::int32_t* z, std::uint64_t form) {
+  const std::uint32_t found = find(z, form);
+  if (found != HashSlots::kNone) return found;
+  constexpr std::int32_t kLargest = std::numeric_limits<std::int32_t>::max() - 2;
+  for (int i = 0; i < dim_; ++i)
+    if (z[i] > kLargest || z[i] < -kLargest)
+      throw LatticeOverflow("lattice coordinate " + std::to_string(i + 1) + " has reached " + std::to_string(z[i]) +
+                            ": the manifold is unbounded, or the edge length is too small for its size");
+  const auto index = static_cast<std::uint32_t>(size());
+  coordinates_.append(z, dim_);
+  forms_.push_back(form);
+  slots_.insert(mix64(form), index);
+  return index;
+}
+
+GrowingArray<std::int32_t> VertexTable::take_coordinates() {
+  slots_.release();
+  forms_.release();
+  return std::move(coordinates_);
+}
+
+}  // namespace whitney::coxeter

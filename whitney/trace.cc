@@ -1,0 +1,617 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <whitney/trace.h>
+
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <utility>
+
+#include <coxeter/error.h>
+#include <coxeter/simplex_table.h>
+#include <coxeter/vertex_table.h>
+#include <whitney/barycentric_kernel.h>
+#include <whitney/exact_pivot.h>
+#include <whitney/lattice_order.h>
+#include <whitney/trace_seed.h>
+
+namespace whitney {
+
+using coxeter::GrowingArray;
+using coxeter::HashSlots;
+using coxeter::SimplexTable;
+using coxeter::VertexTable;
+
+const char* to_string(StopReason reason) {
+  switch (reason) {
+    case StopReason::kNone:
+      return "none";
+    case StopReason::kBox:
+      return "box";
+    case StopReason::kMaxSimplices:
+      return "max_simplices";
+    case StopReason::kTimeLimit:
+      return "time_limit";
+    case StopReason::kCancelled:
+      return "cancelled";
+  }
+  return "unknown";
+}
+
+namespace {
+
+constexpr int kLanes = BarycentricKernel::kLanes;
+constexpr std::size_t kBatch = 64;  // simplices whose cofacets are looked at together, so that f is asked in batches
+
+// A split of a part with s elements into two non-empty ordered halves, 2^s - 2 of them, needs a flag; s <= n + 1.
+constexpr int kMaxIntrinsicDim = 16;
+
+}  // namespace
+
+/// One run of the tracer.
+///
+/// Notation: sigma = (v_0; parts 0..k) a k-simplex; a cofacet tau arises when part q is split into A before B, which adds
+/// the vertex w = v_q + e(A); as e(0) + .. + e(d) = 0, that is v_0 - e(B) when A holds the element d, and then w is the
+/// base vertex of tau. A cofacet has a number: the splits of part 0, then those of part 1, ..; within a part, A as a set of bits
+/// over the part's elements in increasing order, less 1.
+template <class Index>
+class Tracer {
+ public:
+  Tracer(const Function& f, const coxeter::Triangulation& triangulation, const TraceOptions& options)
+      : f_(f),
+        triangulation_(triangulation),
+        options_(options),
+        d_(f.ambient_dim()),
+        k_(f.codim()),
+        vertices_(d_),
+        simplices_(d_, flag_words(d_ - k_)),
+        kernel_(k_),
+        key_(simplices_.key_words()),
+        tau_parts_(d_),
+        tau_map_(k_ + 1),
+        new_part_(k_ + 2),
+        part_size_(k_ + 2),
+        columns_(k_ + 1) {}
+
+  TraceResult run(std::span<const double> seed_points);
+
+ private:
+  // A simplex that waits for its cofacets to be crossed.
+  struct Pending {
+    std::uint32_t id;
+    std::uint64_t hash;
+    std::uint32_t* vertices;  // k + 1 of them
+  };
+  struct Candidate {
+    std::uint32_t part;  // q
+    std::uint32_t split; // A, bits over the elements of part q
+    std::uint32_t flag;  // number of the cofacet
+    std::uint32_t vertex;  // w
+    std::uint64_t form;
+  };
+  // Queues are flat: id, hash (two words), vertices.
+  std::size_t queue_stride() const { return 3 + k_ + 1; }
+
+  static std::size_t flag_words(int intrinsic_dim) { return ((std::size_t{2} << intrinsic_dim) - 2 + 63) / 64; }
+
+  double* value(std::uint32_t vertex) { return &values_[std::size_t{vertex} * k_]; }
+  void enqueue(std::uint32_t id, std::uint64_t hash, const std::uint32_t* vertices);
+  Pending pending(std::size_t i);
+  std::uint32_t intern_vertex(const std::int32_t* z, std::uint64_t form);
+  void evaluate_new_vertices();
+  bool start_from(const Crossing& crossing);
+  bool grow();
+  void process(std::size_t first, std::size_t count);
+  void list_cofacets(const Pending& simplex, std::size_t slot);
+  void cross(const Pending& simplex, std::size_t slot, const Candidate& candidate, int leaving);
+  void report_point(const Pending& simplex, std::size_t slot, int lane);
+  void set_scale();
+  bool should_stop();
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+  TraceResult result();
+
+  const Function& f_;
+  const coxeter::Triangulation& triangulation_;
+  const TraceOptions& options_;
+  const int d_, k_;
+
+  VertexTable vertices_;
+  GrowingArray<double> values_;  // f times scale_, k a vertex; meaningless where outside_
+  GrowingArray<char> outside_;   // filled only when there is a box
+  std::vector<double> scale_;    // powers of two: makes the components of f about as large as each other
+  SimplexTable<Index> simplices_;
+  GrowingArray<double> points_;  // d a simplex
+  BarycentricKernel kernel_;
+
+  GrowingArray<std::uint32_t> queue_, next_queue_;
+  std::size_t evaluations_ = 0, exact_decisions_ = 0;
+  bool cut_by_box_ = false;
+  StopReason stop_ = StopReason::kNone;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+
+  // Elements of each part of the simplices of one batch: element list (d + 1) and starts (k + 2), a slot each.
+  std::vector<std::uint16_t> elements_, starts_;
+  std::vector<Candidate> candidates_;
+  std::vector<std::size_t> candidate_begin_;
+
+  // Scratch.
+  std::vector<std::uint64_t> key_;
+  std::vector<Index> tau_parts_, tau_map_, new_part_;
+  std::vector<int> part_size_;
+  std::vector<const double*> columns_;
+  std::vector<std::int32_t> z_;
+  std::vector<double> x_, f_values_, weights_, sums_, y_;
+  std::vector<std::uint32_t> chain_;
+};
+
+template <class Index>
+void Tracer<Index>::enqueue(std::uint32_t id, std::uint64_t hash, const std::uint32_t* vertices) {
+  std::uint32_t* entry = next_queue_.extend(queue_stride());
+  entry[0] = id;
+  std::memcpy(entry + 1, &hash, sizeof hash);
+  std::copy_n(vertices, k_ + 1, entry + 3);
+}
+
+template <class Index>
+typename Tracer<Index>::Pending Tracer<Index>::pending(std::size_t i) {
+  std::uint32_t* entry = queue_.data() + i * queue_stride();
+  Pending simplex{entry[0], 0, entry + 3};
+  std::memcpy(&simplex.hash, entry + 1, sizeof simplex.hash);
+  return simplex;
+}
+
+// A vertex that is new gets room for its values and waits for evaluate_new_vertices().
+template <class Index>
+std::uint32_t Tracer<Index>::intern_vertex(const std::int32_t* z, std::uint64_t form) {
+  return vertices_.intern(z, form);
+}
+
+template <class Index>
+void Tracer<Index>::evaluate_new_vertices() {
+  const std::size_t known = values_.size() / k_, size = vertices_.size();
+  if (known == size) return;
+  const std::size_t count = size - known;
+  x_.resize(count * d_);
+  std::size_t asked = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    double* x = &x_[asked * d_];
+    triangulation_.cartesian({vertices_.coordinates(static_cast<std::uint32_t>(known + i)), std::size_t(d_)},
+                             {x, std::size_t(d_)});
+    bool inside = true;
+    if (options_.box)
+      for (int c = 0; c < d_; ++c) inside = inside && x[c] >= options_.box->lower[c] && x[c] <= options_.box->upper[c];
+    if (options_.box) outside_.push_back(!inside);
+    asked += inside;
+  }
+  f_values_.resize(asked * k_);
+  f_.evaluate({x_.data(), asked * d_}, f_values_);
+  evaluations_ += asked;
+  double* values = values_.extend(count * k_);
+  std::size_t read = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (options_.box && outside_[known + i]) {
+      std::fill_n(values + i * k_, k_, 0.0);
+      continue;
+    }
+    for (int r = 0; r < k_; ++r) {
+      const double value = f_values_[read * k_ + r];
+      if (!std::isfinite(value)) {
+        std::string at;
+        char number[32];
+        for (int c = 0; c < d_; ++c) {
+          std::snprintf(number, sizeof number, "%s%.17g", c ? ", " : "", x_[read * d_ + c]);
+          at += number;
+        }
+        throw OracleError("component " + std::to_string(r + 1) + " of f is " + (std::isnan(value) ? "NaN" : "infinite") +
+                          " at (" + at + ")");
+      }
+      values[i * k_ + r] = value * scale_[r];
+    }
+    ++read;
+  }
+}
+
+// Lists the cofacets not yet crossed of a simplex, with the index of the vertex each adds.
+template <class Index>
+void Tracer<Index>::list_cofacets(const Pending& simplex, std::size_t slot) {
+  const Index* parts = simplices_.parts(simplex.id);
+  std::uint16_t* elements = &elements_[slot * (d_ + 1)];
+  std::uint16_t* starts = &starts_[slot * (k_ + 2)];
+  std::fill_n(starts, k_ + 2, 0);
+  for (int c = 0; c < d_; ++c) ++starts[parts[c] + 1];
+  ++starts[k_ + 1];
+  for (int p = 0; p <= k_; ++p) starts[p + 1] += starts[p];
+  for (int p = 0; p <= k_; ++p) part_size_[p] = starts[p];
+  for (int c = 0; c < d_; ++c) elements[part_size_[parts[c]]++] = static_cast<std::uint16_t>(c);
+  elements[d_] = static_cast<std::uint16_t>(d_);
+
+  const std::uint64_t* weights = vertices_.weights();
+  const std::uint64_t* flags = simplices_.flags(simplex.id);
+  std::uint32_t flag = 0;
+  for (int q = 0; q <= k_; ++q) {
+    const std::uint16_t* part = elements + starts[q];
+    const int size = starts[q + 1] - starts[q];
+    if (size < 2) continue;
+    const std::uint32_t all = (std::uint32_t{1} << size) - 1;
+    const std::uint64_t form = vertices_.form(simplex.vertices[q]);
+    for (std::uint32_t split = 1; split < all; ++split, ++flag) {
+      if (flags[flag / 64] >> (flag % 64) & 1) continue;
+      std::uint64_t w = form;
+      for (std::uint32_t rest = split; rest != 0; rest &= rest - 1) w += weights[part[std::countr_zero(rest)]];
+      vertices_.prefetch(w);
+      candidates_.push_back({static_cast<std::uint32_t>(q), split, flag, 0, w});
+    }
+  }
+}
+
+// Goes from sigma over the cofacet to its other k-face that is hit, the one without vertex `leaving` of sigma.
+template <class Index>
+void Tracer<Index>::cross(const Pending& simplex, std::size_t slot, const Candidate& candidate, int leaving) {
+  const std::uint16_t* elements = &elements_[slot * (d_ + 1)];
+  const std::uint16_t* starts = &starts_[slot * (k_ + 2)];
+  const int q = static_cast<int>(candidate.part);
+  const std::uint16_t* part = elements + starts[q];
+  const int size = starts[q + 1] - starts[q];
+  const bool new_base = q == k_ && (candidate.split >> (size - 1) & 1);
+
+  // tau has k + 2 parts. First the map for elements outside the half that needs another number, then that half.
+  const int shift_from = new_base ? 0 : q + 1;  // parts of sigma from here on move up by one
+  for (int p = 0; p <= k_; ++p) tau_map_[p] = static_cast<Index>(p >= shift_from ? p + 1 : p);
+  const int inserted = new_base ? 0 : q + 1;  // position of w among the vertices of tau
+  const std::uint32_t special = new_base ? ~candidate.split : candidate.split;  // B when w is the base, else B moves up
+  if (!new_base) tau_map_[q] = static_cast<Index>(q + 1);                       // B; A keeps q
+  const Index special_part = static_cast<Index>(new_base ? 0 : q);
+
+  const int removed = leaving < inserted ? leaving : leaving + 1;  // position of the leaving vertex in tau
+  // sigma': parts removed-1 and removed of tau become one; removing the base joins part 0 to the last.
+  for (int p = 0; p <= k_ + 1; ++p)
+    new_part_[p] = static_cast<Index>(removed == 0 ? (p == 0 ? k_ : p - 1) : (p >= removed ? p - 1 : p));
+
+  const Index* parts = simplices_.parts(simplex.id);
+  Index* tau = tau_parts_.data();
+  for (int c = 0; c < d_; ++c) tau[c] = tau_map_[parts[c]];
+  const std::uint32_t all = (std::uint32_t{1} << size) - 1;
+  for (std::uint32_t rest = special & all; rest != 0; rest &= rest - 1) {
+    const int c = part[std::countr_zero(rest)];
+    if (c < d_) tau[c] = special_part;
+  }
+
+  std::fill(key_.begin(), key_.end(), 0);
+  Index* out = SimplexTable<Index>::parts_of(key_.data());
+  for (int c = 0; c < d_; ++c) out[c] = new_part_[tau[c]];
+
+  // The number of tau as a cofacet of sigma': its merged part is split again, A being the part of tau before the vertex removed.
+  const int merged = removed == 0 ? k_ : removed - 1;
+  const int half = removed == 0 ? k_ + 1 : removed - 1;
+  std::fill(part_size_.begin(), part_size_.end(), 0);
+  std::uint32_t split = 0;
+  for (int c = 0, bit = 0; c < d_; ++c) {
+    ++part_size_[out[c]];
+    if (out[c] != merged) continue;
+    split |= std::uint32_t{tau[c] == half} << bit;
+    ++bit;
+  }
+  if (merged == k_ && half == k_ + 1) split |= std::uint32_t{1} << part_size_[k_];  // element d, the largest
+  std::uint32_t flag = split - 1;
+  for (int p = 0; p < merged; ++p) flag += (std::uint32_t{1} << part_size_[p]) - 2;
+
+  std::uint32_t* chain = chain_.data();
+  int length = 0;
+  for (int position = 0, old = 0; position <= k_ + 1; ++position) {
+    const std::uint32_t vertex = position == inserted ? candidate.vertex : simplex.vertices[old++];
+    if (position != removed) chain[length++] = vertex;
+  }
+  const std::uint64_t hash = simplex.hash + coxeter::mix64(candidate.form) -
+                             coxeter::mix64(vertices_.form(simplex.vertices[leaving]));
+  SimplexTable<Index>::set_base(key_.data(), chain[0]);
+  const std::size_t known = simplices_.size();
+  const std::uint32_t id = simplices_.intern(key_.data(), hash);
+  if (id == known) enqueue(id, hash, chain);
+  simplices_.set_flag(simplex.id, candidate.flag);
+  simplices_.set_flag(id, flag);
+}
+
+// x = b + Lambda (sum_q lambda_q v_q), where coordinate c of the sum is v_0[c] plus the weights of the vertices after its part.
+template <class Index>
+void Tracer<Index>::report_point(const Pending& simplex, std::size_t slot, int lane) {
+  (void)slot;
+  if (kernel_.reliable(lane)) {
+    for (int q = 0; q <= k_; ++q) weights_[q] = std::max(kernel_.weight(lane, q), 0.0);
+  } else {
+    for (int q = 0; q <= k_; ++q) columns_[q] = value(simplex.vertices[q]);
+    weights_ = exact_weights(columns_);
+  }
+  double total = 0;
+  for (int q = k_; q >= 0; --q) {
+    sums_[q] = total;
+    total += weights_[q];
+  }
+  const Index* parts = simplices_.parts(simplex.id);
+  const std::int32_t* base = vertices_.coordinates(simplex.vertices[0]);
+  for (int c = 0; c < d_; ++c) y_[c] = base[c] + sums_[parts[c]] / total;
+  double* x = &points_[std::size_t{simplex.id} * d_];
+  const Eigen::MatrixXd& linear = triangulation_.linear();
+  for (int r = 0; r < d_; ++r) x[r] = triangulation_.offset()[r];
+  for (int c = 0; c < d_; ++c) {
+    const double* column = linear.data() + std::size_t(c) * d_;
+    const double y = y_[c];
+    for (int r = 0; r < d_; ++r) x[r] += y * column[r];
+  }
+}
+
+template <class Index>
+void Tracer<Index>::process(std::size_t first, std::size_t count) {
+  candidates_.clear();
+  candidate_begin_.clear();
+  for (std::size_t i = 0; i < count; ++i) {
+    candidate_begin_.push_back(candidates_.size());
+    list_cofacets(pending(first + i), i);
+  }
+  candidate_begin_.push_back(candidates_.size());
+
+  for (std::size_t i = 0; i < count; ++i) {
+    const Pending simplex = pending(first + i);
+    const std::uint16_t* elements = &elements_[i * (d_ + 1)];
+    const std::uint16_t* starts = &starts_[i * (k_ + 2)];
+    for (std::size_t j = candidate_begin_[i]; j < candidate_begin_[i + 1]; ++j) {
+      Candidate& candidate = candidates_[j];
+      const std::uint16_t* part = elements + starts[candidate.part];
+      std::memcpy(z_.data(), vertices_.coordinates(simplex.vertices[candidate.part]), d_ * sizeof(std::int32_t));
+      for (std::uint32_t rest = candidate.split; rest != 0; rest &= rest - 1) {
+        const int c = part[std::countr_zero(rest)];
+        if (c < d_)
+          ++z_[c];
+        else
+          for (int i = 0; i < d_; ++i) --z_[i];
+      }
+      candidate.vertex = intern_vertex(z_.data(), candidate.form);
+    }
+  }
+  evaluate_new_vertices();
+  points_.extend(simplices_.size() * d_ - points_.size());
+
+  for (std::size_t group = 0; group < count; group += kLanes) {
+    const int lanes = static_cast<int>(std::min<std::size_t>(kLanes, count - group));
+    Pending simplex[kLanes];
+    std::size_t next[kLanes];
+    for (int lane = 0; lane < lanes; ++lane) {
+      simplex[lane] = pending(first + group + lane);
+      next[lane] = candidate_begin_[group + lane];
+      for (int q = 0; q <= k_; ++q) kernel_.set_vertex(lane, q, value(simplex[lane].vertices[q]));
+    }
+    kernel_.factor();
+    for (int lane = 0; lane < lanes; ++lane) report_point(simplex[lane], group + lane, lane);
+
+    for (;;) {
+      const Candidate* current[kLanes] = {};
+      bool any = false;
+      for (int lane = 0; lane < lanes; ++lane) {
+        for (std::size_t& j = next[lane]; j < candidate_begin_[group + lane + 1]; ++j) {
+          const Candidate& candidate = candidates_[j];
+          if (!outside_.empty() && outside_[candidate.vertex]) {
+            cut_by_box_ = true;
+            continue;
+          }
+          // Another simplex of this batch may have crossed the same cofacet from its other side.
+          if (simplices_.flag(simplex[lane].id, candidate.flag)) continue;
+          current[lane] = &candidate;
+          kernel_.set_candidate(lane, value(candidate.vertex));
+          any = true;
+          ++j;
+          break;
+        }
+      }
+      if (!any) break;
+      kernel_.pivot();
+      for (int lane = 0; lane < lanes; ++lane) {
+        if (current[lane] == nullptr) continue;
+        if (simplices_.flag(simplex[lane].id, current[lane]->flag)) continue;
+        int leaving = kernel_.leaving(lane);
+        if (leaving == BarycentricKernel::kUndecided) {
+          for (int q = 0; q <= k_; ++q) columns_[q] = value(simplex[lane].vertices[q]);
+          leaving = exactly_leaving(columns_, value(current[lane]->vertex));
+          ++exact_decisions_;
+        }
+        cross(simplex[lane], group + lane, *current[lane], leaving);
+      }
+    }
+  }
+}
+
+// The first simplex of a trace. False when it is known already.
+template <class Index>
+bool Tracer<Index>::start_from(const Crossing& crossing) {
+  std::vector<std::int32_t> z = crossing.base;
+  std::vector<std::uint32_t> ids(k_ + 1);
+  std::uint64_t hash = 0;
+  std::fill(key_.begin(), key_.end(), 0);
+  for (int c = 0; c < d_; ++c)
+    SimplexTable<Index>::parts_of(key_.data())[c] = static_cast<Index>(crossing.parts[c]);
+  for (int q = 0; q <= k_; ++q) {
+    const std::uint64_t form = vertices_.form_of(z.data());
+    ids[q] = intern_vertex(z.data(), form);
+    hash += coxeter::mix64(form);
+    for (int c = 0; c < d_; ++c) z[c] += crossing.parts[c] == q;
+  }
+  SimplexTable<Index>::set_base(key_.data(), ids[0]);
+  evaluate_new_vertices();
+  const std::size_t known = simplices_.size();
+  const std::uint32_t id = simplices_.intern(key_.data(), hash);
+  if (id < known) return false;
+  enqueue(id, hash, ids.data());
+  return true;
+}
+
+template <class Index>
+bool Tracer<Index>::should_stop() {
+  const double now = seconds();
+  if (simplices_.size() >= options_.max_simplices)
+    stop_ = StopReason::kMaxSimplices;
+  else if (now > options_.time_limit)
+    stop_ = StopReason::kTimeLimit;
+  else if (options_.progress && !options_.progress({simplices_.size(), evaluations_, now}))
+    stop_ = StopReason::kCancelled;
+  return stop_ != StopReason::kNone;
+}
+
+// Breadth first until nothing is left, or a limit. Points of simplices still waiting at a limit are filled in as well.
+template <class Index>
+bool Tracer<Index>::grow() {
+  while (!next_queue_.empty()) {
+    queue_.swap(next_queue_);
+    next_queue_.clear();
+    const std::size_t count = queue_.size() / queue_stride();
+    for (std::size_t first = 0; first < count; first += kBatch) {
+      if (should_stop()) {
+        // What waits is part of what was found: it has its points, but its cofacets are not crossed.
+        const std::size_t left = count - first;
+        next_queue_.append(&queue_[first * queue_stride()], left * queue_stride());
+        queue_.swap(next_queue_);
+        points_.extend(simplices_.size() * d_ - points_.size());
+        for (std::size_t i = 0; i < queue_.size() / queue_stride(); ++i) {
+          const Pending simplex = pending(i);
+          for (int q = 0; q <= k_; ++q) kernel_.set_vertex(0, q, value(simplex.vertices[q]));
+          kernel_.factor();
+          report_point(simplex, 0, 0);
+        }
+        return false;
+      }
+      process(first, std::min(kBatch, count - first));
+    }
+  }
+  return true;
+}
+
+template <class Index>
+TraceResult Tracer<Index>::run(std::span<const double> seed_points) {
+  elements_.resize(kBatch * (d_ + 1));
+  starts_.resize(kBatch * (k_ + 2));
+  z_.resize(d_);
+  weights_.resize(k_ + 1);
+  sums_.resize(k_ + 1);
+  y_.resize(d_);
+  chain_.resize(k_ + 1);
+  scale_.assign(k_, 1.0);
+
+  std::vector<double> x(d_), largest(k_, 0.0);
+  SeedSearch search(triangulation_, k_, [&](const std::int32_t* z, double* values) {
+    triangulation_.cartesian({z, std::size_t(d_)}, x);
+    if (options_.box)
+      for (int c = 0; c < d_; ++c)
+        if (!(x[c] >= options_.box->lower[c] && x[c] <= options_.box->upper[c])) return false;
+    f_.evaluate(x, {values, std::size_t(k_)});
+    for (int r = 0; r < k_; ++r) {
+      if (!std::isfinite(values[r])) throw OracleError(std::string("f is not finite near a seed point: component ") + std::to_string(r + 1));
+      largest[r] = std::max(largest[r], std::abs(values[r]));
+    }
+    return true;
+  });
+
+  TraceResult out;
+  bool first = true;
+  for (std::size_t i = 0; i + d_ <= seed_points.size() && stop_ == StopReason::kNone; i += d_) {
+    SeedReport report;
+    Crossing crossing;
+    if (search.search(seed_points.subspan(i, d_), options_.max_seed_simplices, crossing, report.reason)) {
+      if (first) {
+        // Powers of two, so that values keep all their bits.
+        for (int r = 0; r < k_; ++r)
+          if (largest[r] > 0) scale_[r] = std::ldexp(1.0, std::clamp(-std::ilogb(largest[r]), -1000, 1000));
+        first = false;
+      }
+      report.outcome = start_from(crossing) ? SeedReport::Outcome::kUsed : SeedReport::Outcome::kMerged;
+      grow();
+    }
+    out.seeds.push_back(std::move(report));
+  }
+  while (out.seeds.size() * d_ < seed_points.size())
+    out.seeds.push_back({SeedReport::Outcome::kDropped, "the trace was stopped before its turn"});
+  TraceResult traced = result();
+  traced.seeds = std::move(out.seeds);
+  traced.seed_evaluations = search.evaluations();
+  traced.seconds = seconds();
+  return traced;
+}
+
+// Puts everything into canonical order.
+template <class Index>
+TraceResult Tracer<Index>::result() {
+  TraceResult out;
+  out.ambient_dim_ = d_;
+  out.codim_ = k_;
+  out.evaluations = evaluations_;
+  out.exact_decisions = exact_decisions_;
+  out.stop_reason = stop_ == StopReason::kNone && cut_by_box_ ? StopReason::kBox : stop_;
+  queue_.release();
+  next_queue_.release();
+  simplices_.release_index();
+
+  out.vertex_coordinates_ = vertices_.take_coordinates();
+  const std::vector<std::uint32_t> vertex_order = lexicographic_order(out.vertex_coordinates_, d_);
+  std::vector<std::uint32_t> rank(vertex_order.size());
+  for (std::size_t i = 0; i < vertex_order.size(); ++i) rank[vertex_order[i]] = static_cast<std::uint32_t>(i);
+  permute_rows(out.vertex_coordinates_.data(), d_, vertex_order);
+  for (std::size_t i = 0; i < values_.size(); ++i) values_[i] /= scale_[i % k_];
+  permute_rows(values_.data(), k_, vertex_order);
+  out.vertex_values_ = std::move(values_);
+
+  const auto count = static_cast<std::uint32_t>(simplices_.size());
+  const std::vector<std::uint32_t> order = canonical_order(
+      rank.size(), count, d_, [&](std::uint32_t i) { return rank[simplices_.base(i)]; },
+      [&](std::uint32_t i) { return simplices_.parts(i); });
+  std::uint32_t* base = out.simplex_base_.extend(count);
+  Index* parts;
+  if constexpr (sizeof(Index) == 1)
+    parts = out.parts_.extend(std::size_t{count} * d_);
+  else
+    parts = out.wide_parts_.extend(std::size_t{count} * d_);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    base[i] = rank[simplices_.base(order[i])];
+    std::copy_n(simplices_.parts(order[i]), d_, parts + std::size_t{i} * d_);
+  }
+  permute_rows(points_.data(), d_, order);
+  out.points_ = std::move(points_);
+  return out;
+}
+
+namespace {
+
+void check_arguments(const Function& f, const coxeter::Triangulation& triangulation, std::span<const double> seed_points,
+                     const TraceOptions& options) {
+  const int d = f.ambient_dim(), k = f.codim();
+  if (triangulation.ambient_dim() != d)
+    throw InvalidInput("trace: f is defined on R^" + std::to_string(d) + ", the triangulation is one of R^" +
+                       std::to_string(triangulation.ambient_dim()));
+  if (k >= d)
+    throw InvalidInput("trace: " + std::to_string(k) + " equations in R^" + std::to_string(d) +
+                       " leave no manifold of dimension 1 or more");
+  if (d - k > kMaxIntrinsicDim)
+    throw InvalidInput("trace: intrinsic dimension " + std::to_string(d - k) + " is beyond the largest supported, " +
+                       std::to_string(kMaxIntrinsicDim));
+  if (seed_points.size() % d != 0)
+    throw InvalidInput("trace: " + std::to_string(seed_points.size()) + " numbers are not a whole number of seed points in R^" +
+                       std::to_string(d));
+  for (std::size_t i = 0; i < seed_points.size(); ++i)
+    if (!std::isfinite(seed_points[i]))
+      throw InvalidInput("trace: coordinate " + std::to_string(i % d + 1) + " of seed point " + std::to_string(i / d + 1) +
+                         " is not finite");
+  if (!options.box) return;
+  if (options.box->lower.size() != std::size_t(d) || options.box->upper.size() != std::size_t(d))
+    throw InvalidInput("trace: the box must have " + std::to_string(d) + " lower and upper bounds");
+  for (int c = 0; c < d; ++c)
+    if (!(options.box->lower[c] < options.box->upper[c]))
+      throw InvalidInput("trace: the box is empty along coordinate " + std::to_string(c + 1));
+}
+
+}  // namespace
+
+TraceResult trace(const Function& f, const coxeter::Triangulation& triangulation, std::span<const double> seed_points,
+                  const TraceOptions& options) {
+  check_arguments(f, triangulation, seed_points, options);
+  if (f.codim() < TraceResult::kFirstWideCodim) return Tracer<std::uint8_t>(f, triangulation, options).run(seed_points);
+  return Tracer<std::uint16_t>(f, triangulation, options).run(seed_points);
+}
+
+}  // namespace whitney

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <whitney/trace_seed.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <queue>
+#include <unordered_set>
+#include <utility>
+
+#include <coxeter/error.h>
+#include <whitney/exact_pivot.h>
+
+namespace whitney {
+
+SeedSearch::SeedSearch(const coxeter::Triangulation& triangulation, int codim, Evaluate evaluate)
+    : triangulation_(triangulation),
+      dim_(triangulation.ambient_dim()),
+      codim_(codim),
+      evaluate_(std::move(evaluate)),
+      vertices_(dim_),
+      ids_(dim_ + 1),
+      kernel_(codim) {}
+
+SeedSearch::FullSimplex SeedSearch::locate(const double* y) const {
+  FullSimplex simplex{std::vector<std::int32_t>(dim_), std::vector<int>(dim_)};
+  std::vector<double> fraction(dim_);
+  for (int i = 0; i < dim_; ++i) {
+    const double floor = std::floor(y[i]);
+    if (!(std::abs(floor) < 2e9))
+      throw LatticeOverflow("a seed point lies " + std::to_string(std::abs(floor)) +
+                            " lattice steps from the origin of the triangulation: too far for 32-bit coordinates");
+    simplex.base[i] = static_cast<std::int32_t>(floor);
+    fraction[i] = y[i] - floor;
+  }
+  std::iota(simplex.order.begin(), simplex.order.end(), 0);
+  std::stable_sort(simplex.order.begin(), simplex.order.end(), [&](int a, int b) { return fraction[a] > fraction[b]; });
+  return simplex;
+}
+
+// Across the facet opposite vertex q two neighbouring elements of the cyclic order of {0..d} change places.
+SeedSearch::FullSimplex SeedSearch::neighbour(const FullSimplex& simplex, int opposite) const {
+  FullSimplex other = simplex;
+  if (opposite == 0) {
+    ++other.base[other.order.front()];
+    std::rotate(other.order.begin(), other.order.begin() + 1, other.order.end());
+  } else if (opposite == dim_) {
+    --other.base[other.order.back()];
+    std::rotate(other.order.begin(), other.order.end() - 1, other.order.end());
+  } else {
+    std::swap(other.order[opposite - 1], other.order[opposite]);
+  }
+  return other;
+}
+
+std::vector<double> SeedSearch::barycentre(const FullSimplex& simplex) const {
+  std::vector<double> y(simplex.base.begin(), simplex.base.end());
+  for (int q = 0; q < dim_; ++q) y[simplex.order[q]] += double(dim_ - q) / (dim_ + 1);
+  return y;
+}
+
+// Asks for f at the vertices of the simplex; false when one of them is out of bounds.
+bool SeedSearch::load(const FullSimplex& simplex) {
+  std::vector<std::int32_t> z = simplex.base;
+  bool all_inside = true;
+  for (int q = 0; q <= dim_; ++q) {
+    if (q > 0) ++z[simplex.order[q - 1]];
+    const std::uint32_t id = vertices_.intern(z.data(), vertices_.form_of(z.data()));
+    if (id == inside_.size()) {
+      values_.resize(values_.size() + codim_);
+      inside_.push_back(evaluate_(z.data(), &values_[std::size_t{id} * codim_]));
+      evaluations_ += inside_.back();
+    }
+    ids_[q] = id;
+    all_inside = all_inside && inside_[id];
+  }
+  return all_inside;
+}
+
+// Looks for a k-face of the simplex loaded last that is hit.
+bool SeedSearch::hit_face(const FullSimplex& simplex, Crossing& found) {
+  auto value = [&](int q) { return &values_[std::size_t{ids_[q]} * codim_]; };
+  for (int r = 0; r < codim_; ++r) {
+    bool positive = false, other = false;
+    for (int q = 0; q <= dim_; ++q) (value(q)[r] > 0 ? positive : other) = true;
+    if (!positive || !other) return false;  // one component keeps its sign (zero counts as negative)
+  }
+  std::vector<int> face(codim_ + 1);
+  std::vector<const double*> columns(codim_ + 1);
+  std::iota(face.begin(), face.end(), 0);
+  for (;;) {
+    for (int q = 0; q <= codim_; ++q) {
+      columns[q] = value(face[q]);
+      kernel_.set_vertex(0, q, columns[q]);
+    }
+    kernel_.factor();
+    double lowest = std::numeric_limits<double>::infinity();
+    for (int q = 0; q <= codim_; ++q) lowest = std::min(lowest, kernel_.weight(0, q));
+    const double error = 2 * kernel_.weight_error(0);
+    const bool hit = codim_ > 1 && kernel_.reliable(0) && std::abs(lowest) > error ? lowest > 0 : exactly_hit(columns);
+    if (hit) break;
+    int i = codim_;
+    while (i >= 0 && face[i] == dim_ - codim_ + i) --i;
+    if (i < 0) return false;
+    ++face[i];
+    for (int j = i + 1; j <= codim_; ++j) face[j] = face[j - 1] + 1;
+  }
+  found.base = simplex.base;
+  for (int q = 0; q < face[0]; ++q) ++found.base[simplex.order[q]];
+  found.parts.assign(dim_, codim_);
+  for (int p = 0; p < codim_; ++p)
+    for (int q = face[p]; q < face[p + 1]; ++q) found.parts[simplex.order[q]] = p;
+  return true;
+}
+
+bool SeedSearch::search(std::span<const double> x, std::size_t limit, Crossing& found, std::string& reason) {
+  const Eigen::VectorXd start = triangulation_.lattice_coordinates(x);
+  std::size_t examined = 0;
+
+  // Newton's method on the interpolant: exact as soon as it stays in one simplex.
+  Eigen::VectorXd y = start;
+  for (int step = 0; step < 12; ++step) {
+    const FullSimplex simplex = locate(y.data());
+    if (!load(simplex)) break;
+    ++examined;
+    if (hit_face(simplex, found)) return true;
+    Eigen::MatrixXd gradient(codim_, dim_);
+    auto value = [&](int q) {
+      return Eigen::Map<const Eigen::VectorXd>(&values_[std::size_t{ids_[q]} * codim_], codim_);
+    };
+    Eigen::VectorXd f = value(0);
+    for (int q = 0; q < dim_; ++q) {
+      const int c = simplex.order[q];
+      gradient.col(c) = value(q + 1) - value(q);
+      f += (y[c] - simplex.base[c]) * gradient.col(c);
+    }
+    // Rows scaled to one size, so that the units of f do not matter to the rank decision.
+    for (int r = 0; r < codim_; ++r) {
+      const double size = gradient.row(r).lpNorm<Eigen::Infinity>();
+      if (size > 0) {
+        gradient.row(r) /= size;
+        f[r] /= size;
+      }
+    }
+    const Eigen::VectorXd move = gradient.completeOrthogonalDecomposition().solve(f);
+    if (!move.allFinite() || (y - move - start).norm() > 4 + dim_) break;
+    y -= move;
+  }
+
+  // The d-simplices around the seed, nearest barycentre first.
+  struct Entry {
+    double distance;
+    std::size_t number;  // breaks ties, so that the order is the same everywhere
+    FullSimplex simplex;
+    bool operator<(const Entry& other) const {
+      return std::pair(distance, number) > std::pair(other.distance, other.number);
+    }
+  };
+  auto key_of = [](const FullSimplex& simplex) {
+    std::u32string key(simplex.base.begin(), simplex.base.end());
+    key.append(simplex.order.begin(), simplex.order.end());
+    return key;
+  };
+  std::unordered_set<std::u32string> seen;
+  std::priority_queue<Entry> queue;
+  auto push = [&](FullSimplex simplex) {
+    if (!seen.insert(key_of(simplex)).second) return;
+    const std::vector<double> centre = barycentre(simplex);
+    Eigen::VectorXd away = triangulation_.linear() * (Eigen::Map<const Eigen::VectorXd>(centre.data(), dim_) - start);
+    queue.push({away.norm(), seen.size(), std::move(simplex)});
+  };
+  push(locate(start.data()));
+  bool any_inside = false;
+  while (!queue.empty() && examined < limit) {
+    const FullSimplex simplex = queue.top().simplex;
+    queue.pop();
+    ++examined;
+    if (load(simplex)) {
+      any_inside = true;
+      if (hit_face(simplex, found)) return true;
+    }
+    for (int q = 0; q <= dim_; ++q) push(neighbour(simplex, q));
+  }
+  reason = any_inside ? "none of the " + std::to_string(examined) +
+                            " simplices around it meets the zero set: the point is far from the manifold, or the edge "
+                            "length is too large to see it"
+                      : "it lies outside the box";
+  return false;
+}
+
+}  // namespace whitney
