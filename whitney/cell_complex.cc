@@ -244,6 +244,15 @@ CellComplex build(const TraceResult& trace) {
 
 }  // namespace
 
+coxeter::Simplex CellComplex::simplex(int j, std::size_t i) const {
+  const std::int32_t* z = &vertex_coordinates[std::size_t{simplices[j].base[i]} * ambient_dim];
+  const std::uint16_t* first = &simplices[j].parts[i * ambient_dim];
+  std::vector<std::uint16_t> part_indices(first, first + ambient_dim);
+  // Element d is in the last part: alone there, or with the coordinates of the highest number. The dimension tells.
+  part_indices.push_back(static_cast<std::uint16_t>(ambient_dim - intrinsic_dim + j));
+  return {coxeter::LatticeVertex(std::span(z, std::size_t(ambient_dim))), coxeter::OrderedPartition::from_part_indices(part_indices)};
+}
+
 CellComplex cell_complex(const TraceResult& trace) {
   // Part numbers go up to d here.
   if (trace.ambient_dim() < TraceResult::kFirstWideCodim) return build<std::uint8_t>(trace);

@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include <coxeter/simplex.h>
+
 namespace whitney {
 
 class TraceResult;
@@ -46,6 +48,8 @@ struct CellComplex {
   std::size_t num_dropped = 0;                     ///< cells that a stopped trace left incomplete, or that bound no n-cell
 
   std::size_t num_cells(int dim) const { return facets[dim].size(); }
+  /// The (k+j)-simplex of the triangulation that carries cell i of dimension j.
+  coxeter::Simplex simplex(int j, std::size_t i) const;
 };
 
 /// Builds the cell complex of a trace: every coface of a simplex that is hit is hit, so the (j+1)-cells are the cofacets of the j-cells.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <whitney/trace_seed.h>
 
-#include <Eigen/Dense>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -87,26 +87,36 @@ bool SeedSearch::hit_face(const FullSimplex& simplex, Crossing& found) {
     for (int q = 0; q <= dim_; ++q) (value(q)[r] > 0 ? positive : other) = true;
     if (!positive || !other) return false;  // one component keeps its sign (zero counts as negative)
   }
-  std::vector<int> face(codim_ + 1);
+  // All k-faces, kLanes at a time, in lexicographic order of their vertices.
+  constexpr int kLanes = BarycentricKernel::kLanes;
+  std::vector<int> next(codim_ + 1), face;
+  std::vector<std::vector<int>> batch;
   std::vector<const double*> columns(codim_ + 1);
-  std::iota(face.begin(), face.end(), 0);
-  for (;;) {
-    for (int q = 0; q <= codim_; ++q) {
-      columns[q] = value(face[q]);
-      kernel_.set_vertex(0, q, columns[q]);
+  std::iota(next.begin(), next.end(), 0);
+  bool more = true;
+  while (more && face.empty()) {
+    batch.clear();
+    while (more && batch.size() < kLanes) {
+      for (int q = 0; q <= codim_; ++q) kernel_.set_vertex(static_cast<int>(batch.size()), q, value(next[q]));
+      batch.push_back(next);
+      int i = codim_;
+      while (i >= 0 && next[i] == dim_ - codim_ + i) --i;
+      more = i >= 0;
+      if (more) ++next[i];
+      for (int j = i + 1; more && j <= codim_; ++j) next[j] = next[j - 1] + 1;
     }
     kernel_.factor();
-    double lowest = std::numeric_limits<double>::infinity();
-    for (int q = 0; q <= codim_; ++q) lowest = std::min(lowest, kernel_.weight(0, q));
-    const double error = 2 * kernel_.weight_error(0);
-    const bool hit = codim_ > 1 && kernel_.reliable(0) && std::abs(lowest) > error ? lowest > 0 : exactly_hit(columns);
-    if (hit) break;
-    int i = codim_;
-    while (i >= 0 && face[i] == dim_ - codim_ + i) --i;
-    if (i < 0) return false;
-    ++face[i];
-    for (int j = i + 1; j <= codim_; ++j) face[j] = face[j - 1] + 1;
+    for (int lane = 0; lane < static_cast<int>(batch.size()) && face.empty(); ++lane) {
+      double lowest = std::numeric_limits<double>::infinity();
+      for (int q = 0; q <= codim_; ++q) lowest = std::min(lowest, kernel_.weight(lane, q));
+      const double error = 2 * kernel_.weight_error(lane);
+      for (int q = 0; q <= codim_; ++q) columns[q] = value(batch[lane][q]);
+      // The weights of the kernel mean something for a simplex that is hit; for one equation only then.
+      const bool decided = codim_ > 1 && kernel_.reliable(lane) && std::abs(lowest) > error;
+      if (decided ? lowest > 0 : exactly_hit(columns)) face = batch[lane];
+    }
   }
+  if (face.empty()) return false;
   found.base = simplex.base;
   for (int q = 0; q < face[0]; ++q) ++found.base[simplex.order[q]];
   found.parts.assign(dim_, codim_);

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <initializer_list>
+#include <memory>
+#include <type_traits>
+#include <utility>
+
+namespace whitney::coxeter {
+
+/// An array of plain values, its size chosen at run time; up to N of them are stored in place, more on the heap.
+template <class T, std::size_t N>
+class InlineArray {
+  static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_default_constructible_v<T>);
+
+ public:
+  using value_type = T;
+  using iterator = T*;
+  using const_iterator = const T*;
+
+  InlineArray() = default;
+  /// `size` values that are left unset.
+  explicit InlineArray(std::size_t size) { resize_for_overwrite(size); }
+  InlineArray(std::size_t size, const T& value) : InlineArray(size) { std::fill_n(data(), size, value); }
+  InlineArray(const T* first, const T* last) { assign(first, last); }
+  InlineArray(std::initializer_list<T> values) { assign(values.begin(), values.end()); }
+  InlineArray(const InlineArray& other) { assign(other.begin(), other.end()); }
+  InlineArray(InlineArray&& other) noexcept { *this = std::move(other); }
+  InlineArray& operator=(const InlineArray& other) {
+    if (this != &other) assign(other.begin(), other.end());
+    return *this;
+  }
+  InlineArray& operator=(InlineArray&& other) noexcept {
+    if (this == &other) return *this;
+    size_ = other.size_;
+    capacity_ = other.capacity_;
+    heap_ = std::move(other.heap_);
+    if (!heap_) copy(other.inline_, other.inline_ + size_, inline_);
+    other.size_ = 0;
+    other.capacity_ = N;
+    return *this;
+  }
+
+  std::size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+  T* data() { return heap_ ? heap_.get() : inline_; }
+  const T* data() const { return heap_ ? heap_.get() : inline_; }
+  T* begin() { return data(); }
+  T* end() { return data() + size_; }
+  const T* begin() const { return data(); }
+  const T* end() const { return data() + size_; }
+  T& operator[](std::size_t i) { return data()[i]; }
+  const T& operator[](std::size_t i) const { return data()[i]; }
+  T& back() { return data()[size_ - 1]; }
+  const T& back() const { return data()[size_ - 1]; }
+
+  /// Changes the size; all values are unset afterwards.
+  void resize_for_overwrite(std::size_t size) {
+    if (size > capacity_) {
+      heap_ = std::make_unique_for_overwrite<T[]>(size);
+      capacity_ = size;
+    }
+    size_ = size;
+  }
+  /// The range must not lie in this array.
+  void assign(const T* first, const T* last) {
+    resize_for_overwrite(static_cast<std::size_t>(last - first));
+    copy(first, last, data());
+  }
+  void clear() { size_ = 0; }
+  void push_back(const T& value) {
+    if (size_ == capacity_) grow();
+    data()[size_++] = value;
+  }
+
+  friend bool operator==(const InlineArray& a, const InlineArray& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end());
+  }
+
+ private:
+  static void copy(const T* first, const T* last, T* to) {
+    if (first != last) std::memcpy(to, first, static_cast<std::size_t>(last - first) * sizeof(T));
+  }
+
+  void grow() {
+    auto larger = std::make_unique_for_overwrite<T[]>(2 * capacity_);
+    copy(data(), data() + size_, larger.get());
+    heap_ = std::move(larger);
+    capacity_ *= 2;
+  }
+
+  std::size_t size_ = 0;
+  std::size_t capacity_ = N;
+  std::unique_ptr<T[]> heap_;  // empty while the values are in place
+  T inline_[N];
+};
+
+}  // namespace whitney::coxeter

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <coxeter/error.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <whitney/io/problem.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <string>
+#include <vector>
+
+namespace whitney {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+const fs::path kExamples = fs::path(__FILE__).parent_path().parent_path().parent_path() / "examples" / "problems";
+
+/// A problem in two variables with some more keys.
+std::string with(const std::string& keys) {
+  return R"({"variables": ["x","y"], "equations": ["x^2+y^2-1"])" + (keys.empty() ? "" : ", " + keys) + "}";
+}
+
+std::string error_of(const std::string& text) {
+  try {
+    parse_problem(text, "file.json");
+  } catch (const InvalidInput& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(Problem, Everything) {
+  const Problem p = parse_problem(R"json(// a comment
+    { "variables": ["x","y","z"], "equations": ["x^2+y^2-1", "z-sin(x)"],   // another
+      "box": [[-2,2],["-pi","pi"],[-1.5,"1/2"]],
+      "seed_points": [[1,0,0],["cos(1)","sin(1)",0]],
+      "reach": "1/4",
+      "triangulation": {
+  "type" : "freudenthal",
+           "edge_length" : "0.1*2",
+                           "rotation" : "random",
+                                        "offset" : [ 0, "pi", 1e-3 ],
+                                                   "rng_seed" : 18446744073709551615} })json",
+                                  "p.json");
+  EXPECT_EQ(p.source, Problem::Source::kEquations);
+  EXPECT_EQ(p.variables, (std::vector<std::string>{"x", "y", "z"}));
+  EXPECT_EQ(p.ambient_dim(), 3);
+  EXPECT_EQ(p.codim(), 2);
+  ASSERT_EQ(p.box.size(), 3);
+  EXPECT_EQ(p.box[1][1], std::numbers::pi);
+  EXPECT_EQ(p.box[2][1], 0.5);
+  ASSERT_EQ(p.seed_points.size(), 2);
+  EXPECT_EQ(p.seed_points[1][0], std::cos(1.0));
+  EXPECT_EQ(p.reach, 0.25);
+  EXPECT_EQ(p.triangulation.type, TriangulationSpec::Type::kFreudenthal);
+  EXPECT_EQ(p.triangulation.edge_length, 0.2);
+  EXPECT_EQ(p.triangulation.rotation, TriangulationSpec::Rotation::kRandom);
+  EXPECT_EQ(p.triangulation.offset, TriangulationSpec::Offset::kGiven);
+  EXPECT_EQ(p.triangulation.given_offset, (std::vector<double>{0, std::numbers::pi, 1e-3}));
+  EXPECT_EQ(p.triangulation.rng_seed, ~std::uint64_t{0});
+}
+
+TEST(Problem, Defaults) {
+  const Problem p = parse_problem(with(""), "p.json");
+  EXPECT_TRUE(p.box.empty());
+  EXPECT_TRUE(p.seed_points.empty());
+  EXPECT_FALSE(p.reach);
+  EXPECT_FALSE(p.triangulation.edge_length);
+  EXPECT_EQ(p.triangulation.type, TriangulationSpec::Type::kCoxeter);
+  EXPECT_EQ(p.triangulation.rotation, TriangulationSpec::Rotation::kNone);
+  EXPECT_EQ(p.triangulation.offset, TriangulationSpec::Offset::kRandom);
+  EXPECT_EQ(p.triangulation.rng_seed, 1);
+}
+
+TEST(Problem, Named) {
+  const Problem p =
+      parse_problem(R"json({"named": {"name": "sphere", "intrinsic_dim": 1, "radius": "sqrt(2)"}})json", "p.json");
+  EXPECT_EQ(p.source, Problem::Source::kNamed);
+  EXPECT_EQ(p.variables, (std::vector<std::string>{"x1", "x2"}));
+  EXPECT_EQ(p.box.size(), 2);
+  std::vector<double> value(1);
+  p.function.evaluate(std::vector<double>{1, 1}, value);
+  EXPECT_NEAR(value[0], 0, 1e-15);
+  const Problem boxed = parse_problem(R"({"named": {"name": "trefoil"}, "box": [[-9,9],[-9,9],[-9,9],[-9,9]]})", "p");
+  EXPECT_EQ(boxed.box[3][1], 9);
+}
+
+TEST(Problem, Examples) {
+  int count = 0;
+  for (const auto& entry : fs::directory_iterator(kExamples)) {
+    if (entry.path().extension() != ".json") continue;
+    ++count;
+    SCOPED_TRACE(entry.path());
+    const Problem p = read_problem(entry.path());
+    EXPECT_EQ(p.box.size(), p.ambient_dim());
+    EXPECT_GT(p.triangulation.edge_length.value_or(0), 0);
+    const coxeter::Triangulation t = make_triangulation(p.triangulation, p.ambient_dim(), *p.triangulation.edge_length);
+    EXPECT_NEAR(t.edge_length(), *p.triangulation.edge_length, 1e-12);
+  }
+  EXPECT_GE(count, 9);
+}
+
+TEST(Problem, ErrorsNameFileKeyAndReason) {
+  const auto expect = [](const std::string& text, const std::string& key, const std::string& reason) {
+    EXPECT_THAT(error_of(text), AllOf(HasSubstr("file.json"), HasSubstr(key), HasSubstr(reason))) << text;
+  };
+  expect("", "", "parse error");
+  expect("{", "", "line 1");
+  expect("[]", "", "object");
+  expect("{}", "", "\"equations\"");
+  expect(with(R"("edge_length": 1)"), "\"edge_length\"", "triangulation, named");
+  expect(with(R"("triangulation": {"edgelength": 1})"), "triangulation: unknown key \"edgelength\"",
+         "type, edge_length");
+  expect(with(R"("box": [[0,1],[0,1]], "box": [[0,2],[0,2]])"), "\"box\"", "twice");
+  expect(with(R"("triangulation": {"type": "coxeter", "type": "coxeter"})"), "\"type\"", "twice");
+  expect(with(R"("named": {"name": "sphere"})"), "\"named\"", "exactly one");
+  expect(R"({"equations": ["x"]})", "\"variables\"", "missing");
+  expect(R"({"variables": [], "equations": ["1"]})", "variables", "empty");
+  expect(R"({"variables": "x", "equations": ["1"]})", "variables", "list");
+  expect(R"({"variables": ["x", 1], "equations": ["1"]})", "variables[1]", "text");
+  expect(R"({"variables": ["x","x"], "equations": ["x"]})", "variables", "twice");
+  expect(R"({"variables": ["x","sin"], "equations": ["x"]})", "variables", "reserved");
+  expect(R"({"variables": ["x"], "equations": []})", "equations", "empty");
+  expect(R"({"variables": ["x"], "equations": [1]})", "equations[0]", "text");
+  expect(R"({"variables": ["x"], "equations": ["x","x"]})", "equations", "more equations");
+  expect(R"({"variables": ["x","y"], "equations": ["x","x+u"]})", "equations[1]", "position 3");
+  expect(R"({"variables": ["x"], "named": {"name": "chair"}})", "variables", "named");
+  expect(R"({"named": {}})", "named", "\"name\"");
+  expect(R"({"named": "chair"})", "named", "object");
+  expect(R"({"named": {"name": "chairs"}})", "named", "cyclo_heptane");
+  expect(R"({"named": {"name": "klein_bottle"}})", "named", "whitney triangulate");
+  expect(R"({"named": {"name": "sphere", "radius": "r"}})", "named.radius", "unknown name 'r'");
+  expect(R"({"named": {"name": "sphere", "radius": -1}})", "named", "positive");
+  expect(with(R"("box": [[0,1]])"), "box", "expected 2 elements, not 1");
+  expect(with(R"("box": [[0,1],[0,1,2]])"), "box[1]", "expected 2");
+  expect(with(R"("box": [[0,1],[1,1]])"), "box[1]", "less than");
+  expect(with(R"("box": [[0,1],[2,1]])"), "box[1]", "less than");
+  expect(with(R"("box": [[0,1],[0,"1/0"]])"), "box[1][1]", "division by zero");
+  expect(with(R"("box": [[0,1],[0,"1e999"]])"), "box[1][1]", "range");
+  expect(with(R"("box": [[0,1],[-1.7e308,1.7e308]])"), "box[1]", "range");
+  expect(with(R"("box": [[0,1],[0,null]])"), "box[1][1]", "number");
+  expect(with(R"("box": [[0,1],[0,1e999]])"), "", "1e999");
+  expect(with(R"("box": [])"), "box", "empty");
+  expect(with(R"("seed_points": [])"), "seed_points", "empty");
+  expect(with(R"("seed_points": [[1,0],[1]])"), "seed_points[1]", "expected 2");
+  expect(with(R"("seed_points": [1,0])"), "seed_points[0]", "list");
+  expect(with(R"("reach": 0)"), "reach", "positive");
+  expect(with(R"("reach": true)"), "reach", "number");
+  expect(with(R"("triangulation": [])"), "triangulation", "object");
+  expect(with(R"("triangulation": {"type": "Coxeter"})"), "triangulation.type", "coxeter, freudenthal");
+  expect(with(R"("triangulation": {"rotation": "some"})"), "triangulation.rotation", "none, random");
+  expect(with(R"("triangulation": {"offset": "some"})"), "triangulation.offset", "zero, random");
+  expect(with(R"("triangulation": {"offset": [1]})"), "triangulation.offset", "expected 2");
+  expect(with(R"("triangulation": {"offset": 1})"), "triangulation.offset", "text");
+  expect(with(R"("triangulation": {"edge_length": 0})"), "triangulation.edge_length", "positive");
+  expect(with(R"("triangulation": {"edge_length": "-pi"})"), "triangulation.edge_length", "positive");
+  expect(with(R"("triangulation": {"rng_seed": -1})"), "triangulation.rng_seed", "integer");
+  expect(with(R"("triangulation": {"rng_seed": 1.5})"), "triangulation.rng_seed", "integer");
+  for (const char* key : {"inequalities", "parametrization", "points", "charts", "projective"}) {
+    expect(with("\"" + std::string(key) + "\": {}"), key, "does not support");
+    expect("{\"" + std::string(key) + "\": []}", key, "does not support");
+  }
+}
+
+TEST(Problem, Files) {
+  EXPECT_THROW(read_problem("/nowhere/problem.json"), FileError);
+  EXPECT_THROW(read_problem("/"), FileError);
+  const fs::path path = fs::path(testing::TempDir()) / "whitney_problem_test.json";
+  std::ofstream(path) << "";
+  EXPECT_THROW(read_problem(path), InvalidInput);
+  std::ofstream(path) << with("");
+  EXPECT_EQ(read_problem(path).ambient_dim(), 2);
+  fs::remove(path);
+}
+
+TEST(RandomRotation, IsARotationAndFixed) {
+  for (int d : {1, 2, 3, 4, 7, 10, 40}) {
+    for (std::uint64_t seed : {1, 2, 3}) {
+      const Eigen::MatrixXd Q = random_rotation(d, seed);
+      EXPECT_LT((Q.transpose() * Q - Eigen::MatrixXd::Identity(d, d)).cwiseAbs().maxCoeff(), 1e-14);
+      EXPECT_NEAR(Q.determinant(), 1, 1e-12);
+      EXPECT_EQ(Q, random_rotation(d, seed));
+    }
+  }
+  EXPECT_NE(random_rotation(3, 1), random_rotation(3, 2));
+  EXPECT_THROW(random_rotation(0, 1), InvalidInput);
+}
+
+TEST(RandomRotation, IsUniform) {
+  // Over many seeds: entries have mean 0 and variance 1/d, in every place.
+  constexpr int d = 3, n = 20000;
+  Eigen::Matrix3d mean = Eigen::Matrix3d::Zero(), variance = Eigen::Matrix3d::Zero();
+  for (int seed = 0; seed < n; ++seed) {
+    const Eigen::MatrixXd Q = random_rotation(d, seed);
+    mean += Q / n;
+    variance += Q.cwiseAbs2() / n;
+  }
+  EXPECT_LT(mean.cwiseAbs().maxCoeff(), 5 / std::sqrt(3.0 * n));
+  EXPECT_LT((variance.array() - 1.0 / d).abs().maxCoeff(), 0.015);
+}
+
+TEST(MakeTriangulation, FollowsTheSpec) {
+  TriangulationSpec spec;
+  spec.offset = TriangulationSpec::Offset::kZero;
+  const coxeter::Triangulation plain = make_triangulation(spec, 4, 0.3);
+  EXPECT_EQ(plain.linear(), coxeter::coxeter_a(4, 0.3).linear());
+  EXPECT_TRUE(plain.offset().isZero(0));
+
+  spec.type = TriangulationSpec::Type::kFreudenthal;
+  EXPECT_EQ(make_triangulation(spec, 4, 2).linear(), Eigen::MatrixXd::Identity(4, 4));
+
+  spec.rotation = TriangulationSpec::Rotation::kRandom;
+  spec.rng_seed = 5;
+  EXPECT_LT((make_triangulation(spec, 4, 2).linear() - random_rotation(4, 5)).cwiseAbs().maxCoeff(), 1e-15);
+  EXPECT_TRUE(make_triangulation(spec, 4, 2).offset().isZero(0));
+
+  spec.offset = TriangulationSpec::Offset::kGiven;
+  spec.given_offset = {1, 2, 3, 4};
+  EXPECT_EQ(make_triangulation(spec, 4, 2).offset(), Eigen::Vector4d(1, 2, 3, 4));
+  EXPECT_THROW(make_triangulation(spec, 3, 2), InvalidInput);
+}
+
+TEST(MakeTriangulation, RandomOffsetIsUniformInACell) {
+  TriangulationSpec spec;
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  constexpr int n = 2000;
+  for (int seed = 0; seed < n; ++seed) {
+    spec.rng_seed = seed;
+    spec.rotation = seed % 2 != 0 ? TriangulationSpec::Rotation::kRandom : TriangulationSpec::Rotation::kNone;
+    const coxeter::Triangulation t = make_triangulation(spec, 3, 0.5);
+    const Eigen::Vector3d u = t.linear().partialPivLu().solve(t.offset());
+    EXPECT_GE(u.minCoeff(), -1e-14);
+    EXPECT_LT(u.maxCoeff(), 1 + 1e-14);
+    mean += u / n;
+    EXPECT_EQ(make_triangulation(spec, 3, 0.5).offset(), t.offset());
+  }
+  EXPECT_LT((mean.array() - 0.5).abs().maxCoeff(), 5 / std::sqrt(12.0 * n));
+}
+
+TEST(MakeTriangulation, RejectsBadInput) {
+  EXPECT_THROW(make_triangulation({}, 0, 1), InvalidInput);
+  EXPECT_THROW(make_triangulation({}, -3, 1), InvalidInput);
+  EXPECT_THROW(make_triangulation({}, 3, 0), InvalidInput);
+  EXPECT_THROW(make_triangulation({}, 3, NAN), InvalidInput);
+}
+
+}  // namespace
+}  // namespace whitney

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <whitney/trace.h>
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace whitney::cli {
+
+/// Exit statuses of the program.
+enum ExitStatus { kDone = 0, kBadInput = 1, kStopped = 2, kNotAManifold = 3 };
+
+struct TraceArguments {
+  std::string problem;
+  std::vector<std::string> outputs;
+  std::string stats;
+  std::optional<double> edge_length;
+  std::string mesh = "pulled";
+  std::size_t max_simplices = TraceOptions{}.max_simplices;
+  double time_limit = std::numeric_limits<double>::infinity();
+  std::string projection = "pca";
+  std::string color_by;
+  bool quiet = false;
+};
+int run_trace(const TraceArguments& arguments);
+
+struct CheckArguments {
+  std::string mesh;
+  std::string stats;
+  bool quiet = false;
+};
+int run_check(const CheckArguments& arguments);
+
+}  // namespace whitney::cli

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <whitney/cli/commands.h>
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <new>
+
+int main(int argc, char** argv) {
+  using namespace whitney::cli;
+  CLI::App app{
+      "Triangulates smooth submanifolds of R^d of any dimension and codimension.\n"
+      "\n"
+      "Exit status: 0 done; 1 bad input, named with file, key and reason; 2 stopped by a limit, what was\n"
+      "found is written; 3 the mesh checked is not a manifold. No file is ever left half written.",
+      "whitney"};
+  app.set_version_flag("--version", std::string("whitney ") + WHITNEY_VERSION);
+  app.require_subcommand(1);
+  app.fallthrough();
+  app.get_formatter()->column_width(34);
+
+  TraceArguments trace;
+  CLI::App* trace_command = app.add_subcommand(
+      "trace", "Trace the zero set of equations: a piecewise-linear manifold, its topology and a mesh of it");
+  trace_command->add_option("PROBLEM", trace.problem, "problem file (JSON): equations, box, edge length; see README")
+      ->required();
+  trace_command->add_option("-o,--output", trace.outputs,
+                            "mesh file, format by extension: .off .ply .obj .stl .vtu .mesh .noff .pov; repeatable")
+      ->take_all()
+      ->expected(1);
+  trace_command->add_option("--stats", trace.stats, "write counts, topology and timings to this JSON file");
+  trace_command
+      ->add_option("--edge-length", trace.edge_length,
+                   "longest edge of the ambient simplices, a length; overrides the problem file (default there: "
+                   "longest side of the box / 30)")
+      ->check(CLI::PositiveNumber);
+  trace_command
+      ->add_option("--mesh", trace.mesh,
+                   "what is written: pulled (simplices, no new vertices), barycentric, or cells (the polygons, n <= 2)")
+      ->check(CLI::IsMember({"pulled", "barycentric", "cells"}))
+      ->capture_default_str();
+  trace_command->add_option("--max-simplices", trace.max_simplices, "stop after so many simplices")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  trace_command->add_option("--time-limit", trace.time_limit, "stop tracing after so many seconds")
+      ->check(CLI::NonNegativeNumber);
+  trace_command
+      ->add_option("--project", trace.projection,
+                   "how R^d, d > 3, becomes R^3: pca, or three variables i,j,k (numbers from 1, or names)")
+      ->capture_default_str();
+  trace_command->add_option("--color-by", trace.color_by, "variable that colours the vertices (.ply, .pov)");
+  trace_command->add_flag("-q,--quiet", trace.quiet, "print nothing but errors");
+
+  CheckArguments check;
+  CLI::App* check_command =
+      app.add_subcommand("check", "Topology of a mesh file: is it a manifold, Euler characteristic, homology");
+  check_command->add_option("MESH", check.mesh, "mesh file: .off .noff .ply .obj .stl .mesh .vtu")->required();
+  check_command->add_option("--stats", check.stats, "write the results to this JSON file");
+  check_command->add_flag("-q,--quiet", check.quiet, "print nothing but errors");
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kDone : kBadInput;
+  }
+  try {
+    return trace_command->parsed() ? run_trace(trace) : run_check(check);
+  } catch (const std::bad_alloc&) {
+    std::cerr << "whitney: out of memory; a larger --edge-length or --max-simplices helps\n";
+  } catch (const std::exception& error) {
+    std::cerr << "whitney: " << error.what() << "\n";
+  }
+  return kBadInput;
+}

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <whitney/mesh.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace whitney::io {
+
+/// Throws FileError "path: reason", or "path:line: reason" for a line counted from 1.
+[[noreturn]] void fail_reading(const std::string& path, const std::string& reason);
+[[noreturn]] void fail_reading(const std::string& path, std::size_t line, const std::string& reason);
+
+/// Collects what a reader finds, and checks it.
+class MeshBuilder {
+ public:
+  explicit MeshBuilder(int ambient_dim) { mesh_.ambient_dim = ambient_dim; }
+
+  /// Returns nothing, or why the coordinate cannot be taken.
+  const char* add_coordinate(double value);
+  std::size_t num_points() const { return mesh_.num_points(); }
+  std::size_t num_cells() const { return offsets_.size() - 1; }
+
+  /// A cell by its points, counted from 0. Returns "", or what is wrong with it.
+  std::string add_cell(std::span<const std::uint64_t> points);
+
+  /// Cells of one size as simplices (if `simplices`, or if they have at most three corners), else as polygons.
+  /// Throws FileError naming `path`.
+  SimplicialMesh finish(const std::string& path, bool simplices);
+
+ private:
+  SimplicialMesh mesh_;
+  std::vector<std::size_t> offsets_{0};
+  std::vector<std::uint32_t> corners_;
+  std::vector<std::uint64_t> sorted_;  // scratch
+};
+
+}  // namespace whitney::io

@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <coxeter/error.h>
+#include <whitney/expression.h>
+#include <whitney/io/problem.h>
+#include <whitney/named_manifolds.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <random>
+#include <set>
+#include <span>
+#include <sstream>
+#include <utility>
+
+namespace whitney {
+namespace {
+
+using Json = nlohmann::json;
+
+/// A value inside the file, and the way to it, for messages.
+class Entry {
+ public:
+  Entry(const Json& json, std::string file, std::string path)
+      : json_(json), file_(std::move(file)), path_(std::move(path)) {}
+
+  [[noreturn]] void fail(const std::string& reason) const {
+    throw InvalidInput(file_ + ": " + (path_.empty() ? "" : path_ + ": ") + reason);
+  }
+
+  /// Calls `work`; its InvalidInput gets file and key.
+  template <class Work>
+  auto located(Work work) const {
+    try {
+      return work();
+    } catch (const InvalidInput& error) {
+      fail(error.what());
+    }
+  }
+
+  void expect_keys(std::initializer_list<const char*> known) const {
+    if (!json_.is_object()) fail("expected an object {..}");
+    for (const auto& [key, value] : json_.items()) {
+      if (std::find_if(known.begin(), known.end(), [&k = key](const char* name) { return k == name; }) != known.end()) {
+        continue;
+      }
+      std::string list;
+      for (const char* name : known) list += (list.empty() ? "" : ", ") + std::string(name);
+      fail("unknown key \"" + key + "\"; known here are " + list);
+    }
+  }
+
+  bool has(const char* key) const { return json_.contains(key); }
+  Entry at(const char* key) const {
+    if (!has(key)) fail("the key \"" + std::string(key) + "\" is missing");
+    return {json_.at(key), file_, path_.empty() ? key : path_ + "." + key};
+  }
+  /// The elements of a list that is not empty; size 0: any.
+  std::vector<Entry> list(std::size_t size = 0) const {
+    if (!json_.is_array()) fail("expected a list [..]");
+    if (json_.empty()) fail("the list is empty");
+    if (size != 0 && json_.size() != size) {
+      fail("expected " + std::to_string(size) + " elements, not " + std::to_string(json_.size()));
+    }
+    std::vector<Entry> elements;
+    for (std::size_t i = 0; i < json_.size(); ++i) {
+      elements.emplace_back(json_[i], file_, path_ + "[" + std::to_string(i) + "]");
+    }
+    return elements;
+  }
+  std::vector<std::string> object_keys() const {
+    if (!json_.is_object()) fail("expected an object {..}");
+    std::vector<std::string> keys;
+    for (const auto& [key, value] : json_.items()) keys.push_back(key);
+    return keys;
+  }
+
+  bool is_list() const { return json_.is_array(); }
+  std::string string() const {
+    if (!json_.is_string()) fail("expected a text \"..\"");
+    return json_.get<std::string>();
+  }
+  /// A number, or a constant expression.
+  double number() const {
+    if (json_.is_string()) return located([&] { return parse_constant(json_.get<std::string>()); });
+    if (!json_.is_number()) fail("expected a number or a constant expression");
+    return json_.get<double>();
+  }
+  double positive_number() const {
+    const double value = number();
+    if (!(value > 0)) fail("must be positive");
+    return value;
+  }
+  std::vector<double> numbers(std::size_t size) const {
+    std::vector<double> values;
+    for (const Entry& element : list(size)) values.push_back(element.number());
+    return values;
+  }
+  std::uint64_t count() const {
+    if (!json_.is_number_unsigned()) fail("expected an integer from 0 to 2^64 - 1");
+    return json_.get<std::uint64_t>();
+  }
+  /// One of some words.
+  template <class Value>
+  Value choice(std::initializer_list<std::pair<const char*, Value>> choices) const {
+    const std::string word = string();
+    std::string list;
+    for (const auto& [name, value] : choices) {
+      if (word == name) return value;
+      list += (list.empty() ? "" : ", ") + std::string(name);
+    }
+    fail("unknown word \"" + word + "\"; known here are " + list);
+  }
+
+ private:
+  const Json& json_;
+  std::string file_, path_;
+};
+
+/// JSON, in which nlohmann would let the last of two equal keys win in silence.
+Json parse_json(std::string_view text, const std::string& file) {
+  std::vector<std::set<std::string>> keys;
+  const auto check_key = [&](int, Json::parse_event_t event, Json& parsed) {
+    if (event == Json::parse_event_t::object_start) keys.emplace_back();
+    if (event == Json::parse_event_t::object_end) keys.pop_back();
+    if (event == Json::parse_event_t::key && !keys.back().insert(parsed.get<std::string>()).second) {
+      throw InvalidInput(file + ": the key " + parsed.dump() + " is given twice");
+    }
+    return true;
+  };
+  try {
+    return Json::parse(text, check_key, true, true);
+  } catch (const Json::exception& error) {
+    throw InvalidInput(file + ": " + error.what());
+  }
+}
+
+TriangulationSpec read_triangulation(const Entry& entry, std::size_t d) {
+  using Spec = TriangulationSpec;
+  entry.expect_keys({"type", "edge_length", "rotation", "offset", "rng_seed"});
+  Spec spec;
+  if (entry.has("type")) {
+    spec.type = entry.at("type").choice<Spec::Type>(
+        {{"coxeter", Spec::Type::kCoxeter}, {"freudenthal", Spec::Type::kFreudenthal}});
+  }
+  if (entry.has("edge_length")) spec.edge_length = entry.at("edge_length").positive_number();
+  if (entry.has("rotation")) {
+    spec.rotation = entry.at("rotation")
+                        .choice<Spec::Rotation>({{"none", Spec::Rotation::kNone}, {"random", Spec::Rotation::kRandom}});
+  }
+  if (entry.has("offset")) {
+    const Entry offset = entry.at("offset");
+    if (offset.is_list()) {
+      spec.offset = Spec::Offset::kGiven;
+      spec.given_offset = offset.numbers(d);
+    } else {
+      spec.offset = offset.choice<Spec::Offset>({{"zero", Spec::Offset::kZero}, {"random", Spec::Offset::kRandom}});
+    }
+  }
+  if (entry.has("rng_seed")) spec.rng_seed = entry.at("rng_seed").count();
+  return spec;
+}
+
+Function read_equations(const Entry& variables_entry, const std::vector<std::string>& variables, const Entry& entry) {
+  variables_entry.located([&] { check_variables(variables); });
+  const std::vector<Entry> elements = entry.list();
+  std::vector<std::string> equations;
+  for (const Entry& element : elements) equations.push_back(element.string());
+  try {
+    return parse_equations(variables, equations);
+  } catch (const InvalidInput& error) {
+    // Which one was it?
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+      elements[i].located([&] { compile(variables, std::span(equations).subspan(i, 1)); });
+    }
+    entry.fail(error.what());
+  }
+}
+
+NamedManifold read_named(const Entry& entry) {
+  std::map<std::string, double> parameters;
+  for (const std::string& key : entry.object_keys()) {
+    if (key != "name") parameters[key] = entry.at(key.c_str()).number();
+  }
+  const std::string name = entry.at("name").string();
+  return entry.located([&] { return named_manifold(name, parameters); });
+}
+
+/// Uniform in [0, 1) from one word, as the words are the same on every platform and the distributions of <random> are
+/// not.
+double uniform(std::mt19937_64& generator) { return static_cast<double>(generator() >> 11) * 0x1p-53; }
+
+}  // namespace
+
+Problem parse_problem(std::string_view text, const std::string& name) {
+  const Json json = parse_json(text, name);
+  const Entry root(json, name, "");
+  root.expect_keys({"variables", "equations", "inequalities", "box", "seed_points", "reach", "triangulation", "named",
+                    "parametrization", "points", "charts", "projective"});
+  for (const char* key : {"inequalities", "parametrization", "points", "charts", "projective"}) {
+    if (root.has(key)) root.at(key).fail("this version does not support it yet");
+  }
+  if (root.has("equations") == root.has("named")) {
+    root.fail("exactly one of the keys \"equations\" and \"named\" is needed");
+  }
+
+  std::vector<std::string> variables;
+  std::optional<Problem> problem;
+  if (root.has("equations")) {
+    const Entry entry = root.at("variables");
+    for (const Entry& element : entry.list()) variables.push_back(element.string());
+    Function function = read_equations(entry, variables, root.at("equations"));
+    problem = Problem{Problem::Source::kEquations, std::move(variables), std::move(function)};
+  } else {
+    if (root.has("variables")) root.at("variables").fail("a named manifold has its own variables x1 .. xd");
+    NamedManifold manifold = read_named(root.at("named"));
+    for (int i = 1; i <= manifold.function.ambient_dim(); ++i) variables.push_back("x" + std::to_string(i));
+    problem =
+        Problem{Problem::Source::kNamed, std::move(variables), std::move(manifold.function), std::move(manifold.box)};
+  }
+
+  const std::size_t d = problem->ambient_dim();
+  if (root.has("box")) {
+    problem->box.clear();
+    for (const Entry& side : root.at("box").list(d)) {
+      const std::vector<double> bounds = side.numbers(2);
+      if (!(bounds[0] < bounds[1])) side.fail("the lower bound must be less than the upper one");
+      if (!std::isfinite(bounds[1] - bounds[0])) side.fail("the width is beyond the range of double");
+      problem->box.push_back({bounds[0], bounds[1]});
+    }
+  }
+  if (root.has("seed_points")) {
+    for (const Entry& point : root.at("seed_points").list()) problem->seed_points.push_back(point.numbers(d));
+  }
+  if (root.has("reach")) problem->reach = root.at("reach").positive_number();
+  if (root.has("triangulation")) problem->triangulation = read_triangulation(root.at("triangulation"), d);
+  return std::move(*problem);
+}
+
+Problem read_problem(const std::string& path) {
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  // A file that is empty makes << fail too.
+  if (file && file.peek() != std::ifstream::traits_type::eof()) text << file.rdbuf();
+  if (file.bad() || (!file && !file.eof())) {
+    throw FileError("cannot read " + path + (errno != 0 ? ": " + std::string(std::strerror(errno)) : ""));
+  }
+  return parse_problem(text.str(), path);
+}
+
+Eigen::MatrixXd random_rotation(int ambient_dim, std::uint64_t rng_seed) {
+  if (ambient_dim < 1) throw InvalidInput("ambient_dim must be at least 1, not " + std::to_string(ambient_dim));
+  std::mt19937_64 generator(rng_seed);
+  // Normal numbers by Box and Muller, then columns orthonormalised: uniform on O(d).
+  Eigen::MatrixXd Q(ambient_dim, ambient_dim);
+  for (Eigen::Index i = 0; i < Q.size(); i += 2) {
+    const double radius = std::sqrt(-2 * std::log(1 - uniform(generator)));
+    const double angle = 2 * std::numbers::pi * uniform(generator);
+    Q.data()[i] = radius * std::cos(angle);
+    if (i + 1 < Q.size()) Q.data()[i + 1] = radius * std::sin(angle);
+  }
+  // Gram and Schmidt; one pass loses digits, two do not.
+  for (Eigen::Index j = 0; j < Q.cols(); ++j) {
+    for (int pass = 0; pass < 2; ++pass) {
+      for (Eigen::Index i = 0; i < j; ++i) {
+        double dot = 0;
+        for (Eigen::Index l = 0; l < Q.rows(); ++l) dot += Q(l, i) * Q(l, j);
+        for (Eigen::Index l = 0; l < Q.rows(); ++l) Q(l, j) -= dot * Q(l, i);
+      }
+      double squared = 0;
+      for (Eigen::Index l = 0; l < Q.rows(); ++l) squared += Q(l, j) * Q(l, j);
+      for (Eigen::Index l = 0; l < Q.rows(); ++l) Q(l, j) /= std::sqrt(squared);
+    }
+  }
+  if (Q.partialPivLu().determinant() < 0) Q.col(0) = -Q.col(0);
+  return Q;
+}
+
+coxeter::Triangulation make_triangulation(const TriangulationSpec& spec, int ambient_dim, double edge_length) {
+  coxeter::Triangulation result = spec.type == TriangulationSpec::Type::kCoxeter
+                                      ? coxeter::coxeter_a(ambient_dim, edge_length)
+                                      : coxeter::freudenthal(ambient_dim, edge_length);
+  if (spec.rotation == TriangulationSpec::Rotation::kRandom) {
+    result = result.transformed(random_rotation(ambient_dim, spec.rng_seed), Eigen::VectorXd::Zero(ambient_dim));
+  }
+  Eigen::VectorXd offset = Eigen::VectorXd::Zero(ambient_dim);
+  if (spec.offset == TriangulationSpec::Offset::kGiven) {
+    if (spec.given_offset.size() != static_cast<std::size_t>(ambient_dim)) {
+      throw InvalidInput("offset: " + std::to_string(spec.given_offset.size()) +
+                         " numbers instead of d = " + std::to_string(ambient_dim));
+    }
+    for (int i = 0; i < ambient_dim; ++i) offset[i] = spec.given_offset[i];
+  } else if (spec.offset == TriangulationSpec::Offset::kRandom) {
+    // Another stream than the rotation's, so that neither depends on whether the other was asked for.
+    constexpr std::uint64_t kOffsetStream = 0x9e3779b97f4a7c15;
+    std::mt19937_64 generator(spec.rng_seed ^ kOffsetStream);
+    for (int j = 0; j < ambient_dim; ++j) {
+      const double u = uniform(generator);
+      for (int i = 0; i < ambient_dim; ++i) offset[i] += u * result.linear()(i, j);
+    }
+  }
+  return coxeter::Triangulation(result.linear(), std::move(offset));
+}
+
+}  // namespace whitney

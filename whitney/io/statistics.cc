@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <whitney/io/statistics.h>
+
+#include <sys/resource.h>
+
+#include <nlohmann/json.hpp>
+
+namespace whitney {
+
+std::string to_json(const Statistics& s) {
+  using Json = nlohmann::ordered_json;
+  const Topology& t = s.topology;
+  Json out;
+  out["ambient_dim"] = s.ambient_dim;
+  out["intrinsic_dim"] = s.intrinsic_dim;
+  out["edge_length"] = s.edge_length ? Json(*s.edge_length) : Json(nullptr);
+  out["num_seeds_used"] = s.num_seeds_used;
+  out["num_seeds_merged"] = s.num_seeds_merged;
+  out["num_seeds_dropped"] = s.num_seeds_dropped;
+  Json per_dim = Json::object();
+  for (const auto& [dim, count] : s.simplices_per_dim) per_dim[std::to_string(dim)] = count;
+  out["simplices_per_dim"] = per_dim;
+  out["f_vector"] = t.f_vector;
+  out["euler_characteristic"] = t.euler_characteristic;
+  out["components"] = t.components;
+  out["boundary_components"] = t.boundary_components;
+  out["is_closed_manifold"] = t.manifold == ManifoldKind::kNotChecked ? Json(nullptr) : Json(t.is_closed_manifold());
+  out["is_manifold"] = t.manifold == ManifoldKind::kNotChecked ? Json(nullptr) : Json(t.is_manifold());
+  if (t.witness) out["witness"] = {{"vertices", t.witness->face}, {"reason", t.witness->reason}};
+  out["orientable"] = t.orientable;
+  out["betti_z2"] = t.betti_z2 ? Json(*t.betti_z2) : Json(nullptr);
+  if (t.homology_z) {
+    Json groups = Json::array();
+    for (const HomologyGroup& group : *t.homology_z) groups.push_back(to_string(group));
+    out["homology_z"] = groups;
+  } else {
+    out["homology_z"] = nullptr;
+  }
+  out["certificate"] = nullptr;
+  out["oracle_evaluations"] = s.oracle_evaluations;
+  out["seed_evaluations"] = s.seed_evaluations;
+  out["distinct_vertices"] = s.distinct_vertices;
+  out["exact_decisions"] = s.exact_decisions;
+  out["seconds"] = s.seconds;
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  out["peak_rss_bytes"] = std::size_t(usage.ru_maxrss) * 1024;
+  out["threads"] = 1;
+  out["stop_reason"] = s.stop_reason;
+  return out.dump(2) + "\n";
+}
+
+}  // namespace whitney
