@@ -2,6 +2,7 @@
 #include <coxeter/error.h>
 #include <coxeter/faces.h>
 
+#include <limits>
 #include <string>
 
 namespace whitney::coxeter::detail {
@@ -52,29 +53,40 @@ void FaceEnumeration::build_tails() {
   }
 }
 
+template <std::size_t kWidth>
 void FaceEnumeration::build_rows() {
-  const int num_parts = num_cuts_ + 1;
-  auto extend = [&](const std::uint16_t* from, std::size_t size, int part, std::uint16_t* to) {
-    std::copy_n(from, size, to);
-    for (std::size_t i = part == 0 ? 0 : ends_[part - 1]; i < ends_[part]; ++i) insert(to, size++, elements_[i]);
+  // Behind their values the rows hold the largest number, so that inserting y into a row is one formula for all
+  // entries: max(left neighbour, min(entry, y)).
+  auto extend = [&](const std::uint16_t* from, int part, std::uint16_t* to) {
+    std::size_t i = part == 0 ? 0 : ends_[part - 1];
+    std::uint16_t y = elements_[i];
+    to[0] = std::min(from[0], y);
+    for (std::size_t j = 1; j < kWidth; ++j) to[j] = std::max(from[j - 1], std::min(from[j], y));
+    while (++i < ends_[part]) {
+      y = elements_[i];
+      for (std::size_t j = kWidth; --j > 0;) to[j] = std::max(to[j - 1], std::min(to[j], y));
+      to[0] = std::min(to[0], y);
+    }
   };
+  const int num_parts = num_cuts_ + 1;
   if (rows_.empty()) {
-    rows_.resize_for_overwrite(static_cast<std::size_t>(num_parts * row_stride_) * width_);
+    // One row more, the empty one, at the end.
+    const auto size = static_cast<std::size_t>(num_parts * row_stride_ + 1) * kWidth;
+    rows_.resize_for_overwrite(size);
+    empty_row_ = rows_.data() + size - kWidth;
+    std::fill_n(empty_row_, kWidth, std::numeric_limits<std::uint16_t>::max());
     // Only the last part changes with the turns, so all other blocks are built once.
     const int longest = num_cuts_ - face_dim_ + 1;
-    for (int first = 0; first < num_cuts_; ++first) {
-      std::size_t size = 0;
-      for (int part = first; part < std::min(num_cuts_, first + longest); ++part) {
-        extend(row(first, part), size, part, row(first, part + 1));
-        size += ends_[part] - (part == 0 ? 0 : ends_[part - 1]);
-      }
-    }
+    for (int first = 0; first < num_cuts_; ++first)
+      for (int part = first; part < std::min(num_cuts_, first + longest); ++part)
+        extend(part == first ? empty_row_ : row(first, part), part, row(first, part + 1));
   }
-  std::copy(elements_ + (num_cuts_ == 0 ? 0 : ends_[num_cuts_ - 1]), elements_ + num_elements_,
-            row(num_cuts_, num_parts));
-  for (int first = num_cuts_ - 1; first >= face_dim_; --first)
-    extend(row(first + 1, num_parts), num_elements_ - ends_[first], first, row(first, num_parts));
+  for (int first = num_cuts_; first >= face_dim_; --first)
+    extend(first == num_cuts_ ? empty_row_ : row(first + 1, num_parts), first, row(first, num_parts));
 }
+
+template void FaceEnumeration::build_rows<FaceEnumeration::kNarrow>();
+template void FaceEnumeration::build_rows<FaceEnumeration::kWide>();
 
 void FaceEnumeration::turn() {
   ++turn_;

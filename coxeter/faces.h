@@ -43,9 +43,8 @@ class FaceEnumeration {
         build_tails();
         go_on = keep_cuts(1, face_dim_, 0, visit);
       } else {
-        build_rows();
-        go_on = width_ == kNarrow ? keep_cuts_by_rows<kNarrow>(1, face_dim_, 0, visit)
-                                  : keep_cuts_by_rows<kWide>(1, face_dim_, 0, visit);
+        go_on = width_ == kNarrow ? (build_rows<kNarrow>(), keep_cuts_by_rows<kNarrow>(1, face_dim_, 0, visit))
+                                  : (build_rows<kWide>(), keep_cuts_by_rows<kWide>(1, face_dim_, 0, visit));
       }
       if (!go_on) return false;
       turn();
@@ -174,6 +173,7 @@ class FaceEnumeration {
   }
 
   void build_tails();
+  template <std::size_t kWidth>
   void build_rows();
   void turn();
 
@@ -193,6 +193,7 @@ class FaceEnumeration {
 
   // The table of keep_cuts_by_rows.
   int row_stride_;
+  std::uint16_t* empty_row_ = nullptr;
   int turn_ = 0;
   InlineArray<std::uint16_t, 1> rows_;
   std::uint16_t kept_ends_[kWide] = {};

@@ -28,7 +28,7 @@ class SimplexTable {
     std::memcpy(&base, &records_[index * stride_], sizeof base);
     return base;
   }
-  /// Part numbers of coordinates 0..d-1. Invalidated by insertions.
+  /// Part numbers of coordinates 0..d-1, and at least 16 more bytes that may be read. Invalidated by insertions.
   const Index* parts(std::uint32_t index) const {
     return reinterpret_cast<const Index*>(reinterpret_cast<const unsigned char*>(&records_[index * stride_]) + 4);
   }
@@ -59,6 +59,7 @@ class SimplexTable {
     if (found != HashSlots::kNone) return found;
     const auto index = static_cast<std::uint32_t>(size());
     std::uint64_t* record = records_.extend(stride_);
+    records_.reserve(records_.size() + kSlackWords);
     std::memcpy(record, key, key_words_ * sizeof *key);
     for (std::size_t i = key_words_; i < stride_; ++i) record[i] = 0;
     slots_.insert(hash, index);
@@ -71,6 +72,8 @@ class SimplexTable {
   void release_index() { slots_.release(); }
 
  private:
+  static constexpr std::size_t kSlackWords = 3;
+
   int dim_;
   std::size_t key_words_, stride_;
   GrowingArray<std::uint64_t> records_;

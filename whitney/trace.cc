@@ -9,6 +9,7 @@
 #include <cstring>
 #include <utility>
 
+#include <coxeter/cofacet_step.h>
 #include <coxeter/error.h>
 #include <coxeter/simplex_table.h>
 #include <coxeter/vertex_table.h>
@@ -68,11 +69,6 @@ class Tracer {
         vertices_(d_),
         simplices_(d_, flag_words(d_ - k_)),
         kernel_(k_),
-        key_(simplices_.key_words()),
-        tau_parts_(d_),
-        tau_map_(k_ + 1),
-        new_part_(k_ + 2),
-        part_size_(k_ + 2),
         columns_(k_ + 1) {}
 
   TraceResult run(std::span<const double> seed_points);
@@ -91,6 +87,13 @@ class Tracer {
     std::uint32_t vertex;  // w
     std::uint64_t form;
   };
+  // A cofacet being crossed.
+  struct Step {
+    const Candidate* candidate = nullptr;
+    std::uint64_t* key = nullptr;  // of the simplex behind it
+    std::uint64_t hash = 0;
+    coxeter::CofacetStep over{};
+  };
   // Queues are flat: id, hash (two words), vertices.
   std::size_t queue_stride() const { return 3 + k_ + 1; }
 
@@ -105,9 +108,12 @@ class Tracer {
   bool grow();
   void process(std::size_t first, std::size_t count);
   void list_cofacets(const Pending& simplex, std::size_t slot);
-  void cross(const Pending& simplex, std::size_t slot, const Candidate& candidate, int leaving);
-  void report_point(const Pending& simplex, std::size_t slot, int lane);
-  void set_scale();
+  void prepare(const Pending& simplex, std::size_t slot, const Candidate& candidate, int leaving, Step& step);
+  void take(const Pending& simplex, const Step& step);
+  void report_point(const Pending& simplex, int lane);
+  coxeter::PartLists part_lists(std::size_t slot) {
+    return {&elements_[slot * (d_ + 1)], &starts_[slot * (k_ + 2)], &numbers_[slot * (k_ + 2)]};
+  }
   bool should_stop();
   double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
   TraceResult result();
@@ -131,19 +137,18 @@ class Tracer {
   StopReason stop_ = StopReason::kNone;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 
-  // Elements of each part of the simplices of one batch: element list (d + 1) and starts (k + 2), a slot each.
+  // Part lists of the simplices of one batch, a slot each.
   std::vector<std::uint16_t> elements_, starts_;
+  std::vector<std::uint32_t> numbers_;
   std::vector<Candidate> candidates_;
   std::vector<std::size_t> candidate_begin_;
 
   // Scratch.
-  std::vector<std::uint64_t> key_;
-  std::vector<Index> tau_parts_, tau_map_, new_part_;
-  std::vector<int> part_size_;
+  std::vector<std::uint64_t> keys_;
+  Step steps_[kLanes];
   std::vector<const double*> columns_;
   std::vector<std::int32_t> z_;
   std::vector<double> x_, f_values_, weights_, sums_, y_;
-  std::vector<std::uint32_t> chain_;
 };
 
 template <class Index>
@@ -213,30 +218,21 @@ void Tracer<Index>::evaluate_new_vertices() {
   }
 }
 
-// Lists the cofacets not yet crossed of a simplex, with the index of the vertex each adds.
+// Lists the cofacets not yet crossed of a simplex, with the form of the vertex each adds.
 template <class Index>
 void Tracer<Index>::list_cofacets(const Pending& simplex, std::size_t slot) {
-  const Index* parts = simplices_.parts(simplex.id);
-  std::uint16_t* elements = &elements_[slot * (d_ + 1)];
-  std::uint16_t* starts = &starts_[slot * (k_ + 2)];
-  std::fill_n(starts, k_ + 2, 0);
-  for (int c = 0; c < d_; ++c) ++starts[parts[c] + 1];
-  ++starts[k_ + 1];
-  for (int p = 0; p <= k_; ++p) starts[p + 1] += starts[p];
-  for (int p = 0; p <= k_; ++p) part_size_[p] = starts[p];
-  for (int c = 0; c < d_; ++c) elements[part_size_[parts[c]]++] = static_cast<std::uint16_t>(c);
-  elements[d_] = static_cast<std::uint16_t>(d_);
-
+  const coxeter::PartLists lists = part_lists(slot);
+  coxeter::list_parts(simplices_.parts(simplex.id), d_, k_, lists);
   const std::uint64_t* weights = vertices_.weights();
   const std::uint64_t* flags = simplices_.flags(simplex.id);
-  std::uint32_t flag = 0;
   for (int q = 0; q <= k_; ++q) {
-    const std::uint16_t* part = elements + starts[q];
-    const int size = starts[q + 1] - starts[q];
+    const int size = lists.size(q);
     if (size < 2) continue;
-    const std::uint32_t all = (std::uint32_t{1} << size) - 1;
+    const std::uint16_t* part = lists.part(q);
+    const std::uint32_t whole = (std::uint32_t{1} << size) - 1;
     const std::uint64_t form = vertices_.form(simplex.vertices[q]);
-    for (std::uint32_t split = 1; split < all; ++split, ++flag) {
+    std::uint32_t flag = lists.numbers[q];
+    for (std::uint32_t split = 1; split < whole; ++split, ++flag) {
       if (flags[flag / 64] >> (flag % 64) & 1) continue;
       std::uint64_t w = form;
       for (std::uint32_t rest = split; rest != 0; rest &= rest - 1) w += weights[part[std::countr_zero(rest)]];
@@ -246,77 +242,44 @@ void Tracer<Index>::list_cofacets(const Pending& simplex, std::size_t slot) {
   }
 }
 
-// Goes from sigma over the cofacet to its other k-face that is hit, the one without vertex `leaving` of sigma.
+// From sigma over the cofacet to its other k-face that is hit, the one without vertex `leaving` of sigma: everything about it
+// but whether it is known.
 template <class Index>
-void Tracer<Index>::cross(const Pending& simplex, std::size_t slot, const Candidate& candidate, int leaving) {
-  const std::uint16_t* elements = &elements_[slot * (d_ + 1)];
-  const std::uint16_t* starts = &starts_[slot * (k_ + 2)];
-  const int q = static_cast<int>(candidate.part);
-  const std::uint16_t* part = elements + starts[q];
-  const int size = starts[q + 1] - starts[q];
-  const bool new_base = q == k_ && (candidate.split >> (size - 1) & 1);
+void Tracer<Index>::prepare(const Pending& simplex, std::size_t slot, const Candidate& candidate, int leaving, Step& step) {
+  step.candidate = &candidate;
+  Index* out = SimplexTable<Index>::parts_of(step.key);
+  step.over = coxeter::step_over_cofacet(simplices_.parts(simplex.id), part_lists(slot), d_, k_,
+                                         static_cast<int>(candidate.part), candidate.split, leaving, out);
+  const std::uint32_t* v = simplex.vertices;
+  std::uint32_t base = step.over.inserted == 0 ? candidate.vertex : v[0];
+  if (step.over.removed == 0) base = step.over.inserted == 1 ? candidate.vertex : v[1];
+  SimplexTable<Index>::set_base(step.key, base);
+  step.hash = simplex.hash + coxeter::mix64(candidate.form) - coxeter::mix64(vertices_.form(v[leaving]));
+  simplices_.prefetch(step.hash);
+}
 
-  // tau has k + 2 parts. First the map for elements outside the half that needs another number, then that half.
-  const int shift_from = new_base ? 0 : q + 1;  // parts of sigma from here on move up by one
-  for (int p = 0; p <= k_; ++p) tau_map_[p] = static_cast<Index>(p >= shift_from ? p + 1 : p);
-  const int inserted = new_base ? 0 : q + 1;  // position of w among the vertices of tau
-  const std::uint32_t special = new_base ? ~candidate.split : candidate.split;  // B when w is the base, else B moves up
-  if (!new_base) tau_map_[q] = static_cast<Index>(q + 1);                       // B; A keeps q
-  const Index special_part = static_cast<Index>(new_base ? 0 : q);
-
-  const int removed = leaving < inserted ? leaving : leaving + 1;  // position of the leaving vertex in tau
-  // sigma': parts removed-1 and removed of tau become one; removing the base joins part 0 to the last.
-  for (int p = 0; p <= k_ + 1; ++p)
-    new_part_[p] = static_cast<Index>(removed == 0 ? (p == 0 ? k_ : p - 1) : (p >= removed ? p - 1 : p));
-
-  const Index* parts = simplices_.parts(simplex.id);
-  Index* tau = tau_parts_.data();
-  for (int c = 0; c < d_; ++c) tau[c] = tau_map_[parts[c]];
-  const std::uint32_t all = (std::uint32_t{1} << size) - 1;
-  for (std::uint32_t rest = special & all; rest != 0; rest &= rest - 1) {
-    const int c = part[std::countr_zero(rest)];
-    if (c < d_) tau[c] = special_part;
-  }
-
-  std::fill(key_.begin(), key_.end(), 0);
-  Index* out = SimplexTable<Index>::parts_of(key_.data());
-  for (int c = 0; c < d_; ++c) out[c] = new_part_[tau[c]];
-
-  // The number of tau as a cofacet of sigma': its merged part is split again, A being the part of tau before the vertex removed.
-  const int merged = removed == 0 ? k_ : removed - 1;
-  const int half = removed == 0 ? k_ + 1 : removed - 1;
-  std::fill(part_size_.begin(), part_size_.end(), 0);
-  std::uint32_t split = 0;
-  for (int c = 0, bit = 0; c < d_; ++c) {
-    ++part_size_[out[c]];
-    if (out[c] != merged) continue;
-    split |= std::uint32_t{tau[c] == half} << bit;
-    ++bit;
-  }
-  if (merged == k_ && half == k_ + 1) split |= std::uint32_t{1} << part_size_[k_];  // element d, the largest
-  std::uint32_t flag = split - 1;
-  for (int p = 0; p < merged; ++p) flag += (std::uint32_t{1} << part_size_[p]) - 2;
-
-  std::uint32_t* chain = chain_.data();
-  int length = 0;
-  for (int position = 0, old = 0; position <= k_ + 1; ++position) {
-    const std::uint32_t vertex = position == inserted ? candidate.vertex : simplex.vertices[old++];
-    if (position != removed) chain[length++] = vertex;
-  }
-  const std::uint64_t hash = simplex.hash + coxeter::mix64(candidate.form) -
-                             coxeter::mix64(vertices_.form(simplex.vertices[leaving]));
-  SimplexTable<Index>::set_base(key_.data(), chain[0]);
+template <class Index>
+void Tracer<Index>::take(const Pending& simplex, const Step& step) {
   const std::size_t known = simplices_.size();
-  const std::uint32_t id = simplices_.intern(key_.data(), hash);
-  if (id == known) enqueue(id, hash, chain);
-  simplices_.set_flag(simplex.id, candidate.flag);
-  simplices_.set_flag(id, flag);
+  const std::uint32_t id = simplices_.intern(step.key, step.hash);
+  if (id == known) {
+    std::uint32_t* entry = next_queue_.extend(queue_stride());
+    entry[0] = id;
+    std::memcpy(entry + 1, &step.hash, sizeof step.hash);
+    std::uint32_t* out = entry + 3;
+    const std::uint32_t* v = simplex.vertices;
+    for (int position = 0; position <= k_ + 1; ++position) {
+      const std::uint32_t vertex = position == step.over.inserted ? step.candidate->vertex : *v++;
+      if (position != step.over.removed) *out++ = vertex;
+    }
+  }
+  simplices_.set_flag(simplex.id, step.candidate->flag);
+  simplices_.set_flag(id, step.over.number);
 }
 
 // x = b + Lambda (sum_q lambda_q v_q), where coordinate c of the sum is v_0[c] plus the weights of the vertices after its part.
 template <class Index>
-void Tracer<Index>::report_point(const Pending& simplex, std::size_t slot, int lane) {
-  (void)slot;
+void Tracer<Index>::report_point(const Pending& simplex, int lane) {
   if (kernel_.reliable(lane)) {
     for (int q = 0; q <= k_; ++q) weights_[q] = std::max(kernel_.weight(lane, q), 0.0);
   } else {
@@ -353,11 +316,10 @@ void Tracer<Index>::process(std::size_t first, std::size_t count) {
 
   for (std::size_t i = 0; i < count; ++i) {
     const Pending simplex = pending(first + i);
-    const std::uint16_t* elements = &elements_[i * (d_ + 1)];
-    const std::uint16_t* starts = &starts_[i * (k_ + 2)];
+    const coxeter::PartLists lists = part_lists(i);
     for (std::size_t j = candidate_begin_[i]; j < candidate_begin_[i + 1]; ++j) {
       Candidate& candidate = candidates_[j];
-      const std::uint16_t* part = elements + starts[candidate.part];
+      const std::uint16_t* part = lists.part(static_cast<int>(candidate.part));
       std::memcpy(z_.data(), vertices_.coordinates(simplex.vertices[candidate.part]), d_ * sizeof(std::int32_t));
       for (std::uint32_t rest = candidate.split; rest != 0; rest &= rest - 1) {
         const int c = part[std::countr_zero(rest)];
@@ -382,7 +344,7 @@ void Tracer<Index>::process(std::size_t first, std::size_t count) {
       for (int q = 0; q <= k_; ++q) kernel_.set_vertex(lane, q, value(simplex[lane].vertices[q]));
     }
     kernel_.factor();
-    for (int lane = 0; lane < lanes; ++lane) report_point(simplex[lane], group + lane, lane);
+    for (int lane = 0; lane < lanes; ++lane) report_point(simplex[lane], lane);
 
     for (;;) {
       const Candidate* current[kLanes] = {};
@@ -407,15 +369,17 @@ void Tracer<Index>::process(std::size_t first, std::size_t count) {
       kernel_.pivot();
       for (int lane = 0; lane < lanes; ++lane) {
         if (current[lane] == nullptr) continue;
-        if (simplices_.flag(simplex[lane].id, current[lane]->flag)) continue;
         int leaving = kernel_.leaving(lane);
         if (leaving == BarycentricKernel::kUndecided) {
           for (int q = 0; q <= k_; ++q) columns_[q] = value(simplex[lane].vertices[q]);
           leaving = exactly_leaving(columns_, value(current[lane]->vertex));
           ++exact_decisions_;
         }
-        cross(simplex[lane], group + lane, *current[lane], leaving);
+        prepare(simplex[lane], group + lane, *current[lane], leaving, steps_[lane]);
       }
+      for (int lane = 0; lane < lanes; ++lane)
+        if (current[lane] != nullptr && !simplices_.flag(simplex[lane].id, current[lane]->flag))
+          take(simplex[lane], steps_[lane]);
     }
   }
 }
@@ -426,19 +390,19 @@ bool Tracer<Index>::start_from(const Crossing& crossing) {
   std::vector<std::int32_t> z = crossing.base;
   std::vector<std::uint32_t> ids(k_ + 1);
   std::uint64_t hash = 0;
-  std::fill(key_.begin(), key_.end(), 0);
-  for (int c = 0; c < d_; ++c)
-    SimplexTable<Index>::parts_of(key_.data())[c] = static_cast<Index>(crossing.parts[c]);
+  std::uint64_t* key = steps_[0].key;
+  std::fill_n(key, simplices_.key_words(), 0);
+  for (int c = 0; c < d_; ++c) SimplexTable<Index>::parts_of(key)[c] = static_cast<Index>(crossing.parts[c]);
   for (int q = 0; q <= k_; ++q) {
     const std::uint64_t form = vertices_.form_of(z.data());
     ids[q] = intern_vertex(z.data(), form);
     hash += coxeter::mix64(form);
     for (int c = 0; c < d_; ++c) z[c] += crossing.parts[c] == q;
   }
-  SimplexTable<Index>::set_base(key_.data(), ids[0]);
+  SimplexTable<Index>::set_base(key, ids[0]);
   evaluate_new_vertices();
   const std::size_t known = simplices_.size();
-  const std::uint32_t id = simplices_.intern(key_.data(), hash);
+  const std::uint32_t id = simplices_.intern(key, hash);
   if (id < known) return false;
   enqueue(id, hash, ids.data());
   return true;
@@ -474,7 +438,7 @@ bool Tracer<Index>::grow() {
           const Pending simplex = pending(i);
           for (int q = 0; q <= k_; ++q) kernel_.set_vertex(0, q, value(simplex.vertices[q]));
           kernel_.factor();
-          report_point(simplex, 0, 0);
+          report_point(simplex, 0);
         }
         return false;
       }
@@ -488,11 +452,14 @@ template <class Index>
 TraceResult Tracer<Index>::run(std::span<const double> seed_points) {
   elements_.resize(kBatch * (d_ + 1));
   starts_.resize(kBatch * (k_ + 2));
+  numbers_.resize(kBatch * (k_ + 2));
+  const std::size_t key_room = simplices_.key_words() + coxeter::kStepSlack * sizeof(Index) / 8 + 2;
+  keys_.assign(kLanes * key_room, 0);
+  for (int lane = 0; lane < kLanes; ++lane) steps_[lane].key = &keys_[lane * key_room];
   z_.resize(d_);
   weights_.resize(k_ + 1);
   sums_.resize(k_ + 1);
   y_.resize(d_);
-  chain_.resize(k_ + 1);
   scale_.assign(k_, 1.0);
 
   std::vector<double> x(d_), largest(k_, 0.0);

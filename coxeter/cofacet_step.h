@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+#ifdef __SSE2__
+#include <immintrin.h>
+#endif
+
+namespace whitney::coxeter {
+
+/// The parts of a simplex as lists, made once for all its cofacets.
+///
+/// A cofacet arises when part q is split into two non-empty ordered halves A before B. Cofacets have numbers: the splits of part 0,
+/// then those of part 1, and so on; within a part with s elements, A as a set of bits over the elements in increasing order, less 1
+/// (2^s - 2 splits). So a set of flags, one per cofacet, belongs to a simplex.
+struct PartLists {
+  std::uint16_t* elements;  ///< d + 1: all of {0..d}, part after part, increasing inside a part
+  std::uint16_t* starts;    ///< k + 2: part q is elements[starts[q]] .. elements[starts[q+1]-1]
+  std::uint32_t* numbers;   ///< k + 2: the number of the first cofacet that splits part q
+
+  int size(int q) const { return starts[q + 1] - starts[q]; }
+  const std::uint16_t* part(int q) const { return elements + starts[q]; }
+};
+
+/// Splits of a part with `size` elements.
+inline std::uint32_t num_splits(int size) { return (std::uint32_t{1} << size) - 2; }
+
+/// Fills the lists from part numbers of the coordinates 0..d-1 (k + 1 parts; element d is in the last one).
+template <class Index>
+void list_parts(const Index* parts, int d, int k, PartLists lists) {
+  std::uint16_t* starts = lists.starts;
+  for (int q = 0; q <= k + 1; ++q) starts[q] = 0;
+  for (int c = 0; c < d; ++c) ++starts[parts[c] + 1];
+  ++starts[k + 1];
+  lists.numbers[0] = 0;
+  for (int q = 0; q <= k; ++q) {
+    lists.numbers[q + 1] = lists.numbers[q] + num_splits(starts[q + 1]);
+    starts[q + 1] = static_cast<std::uint16_t>(starts[q + 1] + starts[q]);
+  }
+  // starts[q] serves as the place of the next element of part q, and is put back afterwards.
+  for (int c = 0; c < d; ++c) lists.elements[starts[parts[c]]++] = static_cast<std::uint16_t>(c);
+  for (int q = k; q > 0; --q) starts[q] = starts[q - 1];
+  starts[0] = 0;
+  lists.elements[d] = static_cast<std::uint16_t>(d);
+}
+
+/// One step from a k-simplex sigma over a cofacet tau = sigma + w to the k-face sigma' of tau without another vertex.
+struct CofacetStep {
+  int inserted;          ///< position of w among the vertices of tau in canonical order
+  int removed;           ///< position of the vertex that leaves
+  std::uint32_t number;  ///< the number of tau as a cofacet of sigma'
+};
+
+namespace detail {
+
+#ifdef __SSE2__
+/// The sixteen-coordinate form: everything in two registers.
+template <class Index>
+std::uint32_t step_parts_short(const Index* parts, int d, int k, std::uint64_t special_low, std::uint64_t special_high,
+                               bool new_base, int q, int removed, int merged, int half, Index* out) {
+  using Bytes = std::uint8_t __attribute__((vector_size(16)));
+  auto all = [](int x) { return Bytes{} + static_cast<std::uint8_t>(x); };
+  Bytes p;
+  std::memcpy(&p, parts, sizeof p);
+  const std::uint64_t words[2] = {special_low, special_high};
+  Bytes special;
+  std::memcpy(&special, words, sizeof special);
+  Bytes tau;
+  if (new_base) {
+    tau = (p + 1) & ~special;
+  } else {
+    tau = p - reinterpret_cast<Bytes>(p >= all(q));  // a true comparison is -1
+    tau = (tau & ~special) | (all(q) & special);
+  }
+  Bytes result;
+  if (removed == 0) {
+    const Bytes first = reinterpret_cast<Bytes>(tau == all(0));
+    result = ((tau - 1) & ~first) | (all(k) & first);
+  } else {
+    result = tau + reinterpret_cast<Bytes>(tau >= all(removed));
+  }
+  const auto movemask = [](Bytes x) {
+    return static_cast<std::uint32_t>(_mm_movemask_epi8(reinterpret_cast<__m128i>(x)));
+  };
+  const std::uint32_t valid = (std::uint32_t{1} << d) - 1;
+  const std::uint32_t in_merged = movemask(reinterpret_cast<Bytes>(result == all(merged))) & valid;
+  const std::uint32_t in_half = movemask(reinterpret_cast<Bytes>(tau == all(half))) & valid;
+  std::memcpy(out, &result, sizeof result);
+  std::memset(out + d, 0, 16);
+#ifdef __BMI2__
+  std::uint32_t split = _pext_u32(in_half, in_merged);
+#else
+  std::uint32_t split = 0;
+  int bit = 0;
+  for (std::uint32_t rest = in_merged; rest != 0; rest &= rest - 1) split |= (in_half >> std::countr_zero(rest) & 1) << bit++;
+#endif
+  if (merged == k && half == k + 1) split |= std::uint32_t{1} << std::popcount(in_merged);
+  return split;
+}
+#endif
+
+template <class Index>
+std::uint32_t step_parts(const Index* parts, int d, int k, const std::uint16_t* part, std::uint32_t special, bool new_base,
+                         int q, int removed, int merged, int half, Index* out) {
+  // First tau in `out`, then sigma'.
+  for (int c = 0; c < d; ++c) out[c] = static_cast<Index>(parts[c] + (new_base || parts[c] >= q));
+  for (std::uint32_t rest = special; rest != 0; rest &= rest - 1)
+    out[part[std::countr_zero(rest)]] = static_cast<Index>(new_base ? 0 : q);
+  std::uint32_t split = 0;
+  int bit = 0;
+  for (int c = 0; c < d; ++c) {
+    const int tau = out[c];
+    const int result = removed == 0 ? (tau == 0 ? k : tau - 1) : tau - (tau >= removed);
+    if (result == merged) split |= std::uint32_t{tau == half} << bit++;
+    out[c] = static_cast<Index>(result);
+  }
+  if (merged == k && half == k + 1) split |= std::uint32_t{1} << bit;
+  return split;
+}
+
+}  // namespace detail
+
+/// How many Index values beyond the d that are written step_over_cofacet may read after `parts` and write (zeros) after `out`.
+inline constexpr int kStepSlack = 16;
+
+/// From sigma (part numbers `parts`, lists of them) over the cofacet that splits part q by `split` to the face without vertex
+/// `leaving` of sigma (0..k): writes the part numbers of sigma' to `out`, which may not overlap `parts`.
+template <class Index>
+CofacetStep step_over_cofacet(const Index* parts, const PartLists& lists, int d, int k, int q, std::uint32_t split,
+                              int leaving, Index* out) {
+  const int size = lists.size(q);
+  const std::uint32_t whole = (std::uint32_t{1} << size) - 1;
+  // w = v_q + e(A); as e(0) + .. + e(d) = 0, that is v_0 - e(B) when A holds the element d (in the last part, its largest).
+  const bool new_base = q == k && (split >> (size - 1) & 1);
+  const int inserted = new_base ? 0 : q + 1;
+  const int removed = leaving < inserted ? leaving : leaving + 1;
+  // Without its vertex number `removed`, parts removed-1 and removed of tau become one; without the base, part 0 joins the last.
+  const int merged = removed == 0 ? k : removed - 1;
+  const int half = removed == 0 ? k + 1 : removed - 1;
+  // In tau the halves have numbers q and q + 1, except that B becomes part 0 when w is the base. `special` are the elements that do
+  // not move up by one with the rest.
+  std::uint32_t special = new_base ? whole & ~split : split;
+  if (q == k) special &= whole >> 1;  // element d has no part number of its own: it is always in the last part
+
+  std::uint32_t new_split;
+#ifdef __SSE2__
+  if (sizeof(Index) == 1 && d <= 16) {
+    std::uint64_t mask[2] = {0, 0};
+    for (std::uint32_t rest = special; rest != 0; rest &= rest - 1) {
+      const int c = lists.part(q)[std::countr_zero(rest)];
+      mask[c >> 3] |= std::uint64_t{0xff} << (8 * (c & 7));
+    }
+    new_split = detail::step_parts_short(parts, d, k, mask[0], mask[1], new_base, q, removed, merged, half, out);
+  } else  // NOLINT(readability-misleading-indentation)
+#endif
+    new_split = detail::step_parts(parts, d, k, lists.part(q), special, new_base, q, removed, merged, half, out);
+
+  // Splits of the parts of sigma' before the merged one: those of tau before it.
+  const int in_first = std::popcount(split), in_second = size - in_first;
+  auto before = [&](int m) {  // splits of the parts 0..m-1 of tau
+    if (new_base) return m == 0 ? 0u : num_splits(in_second) + lists.numbers[m - 1];
+    if (m <= q) return lists.numbers[m];
+    const std::uint32_t first = lists.numbers[q] + num_splits(in_first);
+    return m == q + 1 ? first : first + num_splits(in_second) + lists.numbers[m - 1] - lists.numbers[q + 1];
+  };
+  const std::uint32_t skipped = removed == 0 ? before(k + 1) - before(1) : before(removed - 1);
+  return {inserted, removed, skipped + new_split - 1};
+}
+
+}  // namespace whitney::coxeter
