@@ -84,7 +84,7 @@ void rotated_torus(const double* x, double* v) {
 whitney::Function parsed_rotated_torus() {
   const Eigen::MatrixXd Q = whitney::random_rotation(kTorusDim, 7);
   std::vector<std::string> variables, y;
-  for (int i = 0; i < kTorusDim; ++i) variables.push_back("x" + std::to_string(i + 1));
+  for (int i = 0; i < kTorusDim; ++i) variables.emplace_back("x").append(std::to_string(i + 1));
   for (int j = 0; j < kTorusDim; ++j) {
     std::string text = "(0";
     for (int i = 0; i < kTorusDim; ++i) {

@@ -43,7 +43,7 @@ void FaceEnumeration::build_tails() {
   tails_.resize_for_overwrite(total);
   for (int cut = num_cuts_; cut >= face_dim_; --cut) {
     std::uint16_t* const tail = tails_.data() + tail_begin_[static_cast<std::size_t>(cut)];
-    const std::size_t begin = ends_[cut - 1], end = ends_[cut];
+    const std::size_t begin = part_begin(cut), end = ends_[cut];
     if (cut == num_cuts_) {
       std::copy(elements_ + begin, elements_ + end, tail);
     } else {
@@ -58,7 +58,7 @@ void FaceEnumeration::build_rows() {
   // Behind their values the rows hold the largest number, so that inserting y into a row is one formula for all
   // entries: max(left neighbour, min(entry, y)).
   auto extend = [&](const std::uint16_t* from, int part, std::uint16_t* to) {
-    std::size_t i = part == 0 ? 0 : ends_[part - 1];
+    std::size_t i = part_begin(part);
     std::uint16_t y = elements_[i];
     to[0] = std::min(from[0], y);
     for (std::size_t j = 1; j < kWidth; ++j) to[j] = std::max(from[j - 1], std::min(from[j], y));
@@ -75,11 +75,12 @@ void FaceEnumeration::build_rows() {
     rows_.resize_for_overwrite(size);
     empty_row_ = rows_.data() + size - kWidth;
     std::fill_n(empty_row_, kWidth, std::numeric_limits<std::uint16_t>::max());
-    // Only the last part changes with the turns, so all other blocks are built once.
-    const int longest = num_cuts_ - face_dim_ + 1;
-    for (int first = 0; first < num_cuts_; ++first)
-      for (int part = first; part < std::min(num_cuts_, first + longest); ++part)
-        extend(part == first ? empty_row_ : row(first, part), part, row(first, part + 1));
+    // Only the last part changes with the turns, so all other blocks are built once; the short ones first, so that a
+    // row has long been written when it is read.
+    for (int length = 1; length <= num_cuts_ - face_dim_ + 1; ++length)
+      for (int first = 0; first + length <= num_cuts_; ++first)
+        extend(length == 1 ? empty_row_ : row(first, first + length - 1), first + length - 1,
+               row(first, first + length));
   }
   for (int first = num_cuts_; first >= face_dim_; --first)
     extend(first == num_cuts_ ? empty_row_ : row(first + 1, num_parts), first, row(first, num_parts));

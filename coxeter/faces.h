@@ -73,17 +73,20 @@ class FaceEnumeration {
       const bool go_on =
           todo == 1 ? visit_continues(visit, face_) : drop_cuts(cut + 1, todo - 1, dropped + 1, start, visit);
       if (!go_on) return false;
-      release(start, middle, end);
+      release(start, middle, end, cut == first && start != part_begin(cut - 1));
       start = middle;
     }
     return true;
   }
 
+  /// Where part q of the turned simplex begins.
+  std::size_t part_begin(int q) const { return q == 0 ? 0 : ends_[q - 1]; }
+
   /// Keeps `todo` of the cuts from `first` on; `kept` were kept before it, the last of them `first` - 1.
   template <class Visitor>
   bool keep_cuts(int first, int todo, int kept, Visitor& visit) {
     const int last = num_cuts_ - todo + 1;
-    const std::size_t start = first == 1 ? 0 : ends_[first - 2];
+    const std::size_t start = part_begin(first - 1);
     // The block before the cut grows part by part; deeper levels write what follows.
     std::size_t filled = start;
     for (int cut = first; cut <= last; ++cut) {
@@ -106,7 +109,7 @@ class FaceEnumeration {
   template <std::size_t kWidth, class Visitor>
   bool keep_cuts_by_rows(int first, int todo, int kept, Visitor& visit) {
     const int last = num_cuts_ - todo + 1;
-    std::uint16_t* const block = out_.elements + (first == 1 ? 0 : ends_[first - 2]);
+    std::uint16_t* const block = out_.elements + part_begin(first - 1);
     for (int cut = first; cut <= last; ++cut) {
       const std::uint16_t end = ends_[cut - 1];
       std::copy_n(row(first - 1, cut), kWidth, block);
@@ -134,12 +137,11 @@ class FaceEnumeration {
     for (; middle < end; ++middle) insert(out_.elements + start, middle - start, elements_[middle]);
   }
 
-  /// Undoes absorb.
-  void release(std::size_t start, std::size_t middle, std::size_t end) {
+  /// Undoes absorb. `merged`: whether [start, middle) held several parts of the turned simplex.
+  void release(std::size_t start, std::size_t middle, std::size_t end, bool merged) {
     std::uint16_t* const e = out_.elements;
-    if (end - start == 2) {
-      e[start] = elements_[start];
-      e[middle] = elements_[middle];
+    if (!merged) {
+      for (std::size_t i = start; i < end; ++i) e[i] = elements_[i];
       return;
     }
     std::size_t to = start, next = middle;

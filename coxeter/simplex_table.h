@@ -58,8 +58,8 @@ class SimplexTable {
     const std::uint32_t found = find(key, hash);
     if (found != HashSlots::kNone) return found;
     const auto index = static_cast<std::uint32_t>(size());
-    std::uint64_t* record = records_.extend(stride_);
-    records_.reserve(records_.size() + kSlackWords);
+    std::uint64_t* record = records_.extend(stride_ + kSlackWords);
+    records_.resize(records_.size() - kSlackWords, 0);
     std::memcpy(record, key, key_words_ * sizeof *key);
     for (std::size_t i = key_words_; i < stride_; ++i) record[i] = 0;
     slots_.insert(hash, index);

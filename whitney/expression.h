@@ -18,7 +18,8 @@ namespace whitney {
 //
 // Everything is real: sqrt(-1), (-8)^(1/3), log(0), 1/0 among constants are errors, as is a constant that is beyond the
 // range of double. Among variables they become NaN or infinite where the map is evaluated. Factors and powers stay as
-// written: nothing is expanded. The same text always gives the same tape, bit for bit.
+// written: nothing is expanded, but what cancels is cancelled (x/x is 1, exp(log(x)) is x, on all of R). The same text
+// always gives the same tape, bit for bit.
 //
 // Every function here throws InvalidInput; the message quotes the expression, and the position and symbol that were not
 // understood. They lock: GiNaC, which simplifies and differentiates, is not safe for threads. A caller who uses GiNaC

@@ -16,9 +16,9 @@ concept PointwiseFunction = std::invocable<const F&, std::span<const double>, st
 
 /// A map f: R^d -> R^k whose zero set is an isomanifold of dimension n = d - k.
 ///
-/// A value: cheap to copy, immutable, safe to call from several threads. Evaluation is by batches, because a tracer asks
-/// for many points at a time and an interpreter or a SIMD kernel wants them so. The value at a point does not depend on
-/// the batch it came in (the tracer's determinism rests on that).
+/// A value: cheap to copy, immutable, safe to call from several threads. Evaluation is by batches, because a tracer
+/// asks for many points at a time and an interpreter or a SIMD kernel wants them so. The value at a point does not
+/// depend on the batch it came in (the tracer's determinism rests on that).
 class Function {
  public:
   /// The interface behind a Function. Derive from it to supply a batch kernel or exact derivatives.
@@ -53,7 +53,6 @@ class Function {
 
 /// The Function of any callable `f(std::span<const double> x, std::span<double> values)`, d >= 1, 1 <= k <= d.
 /// Derivatives are taken by differences. Throws InvalidInput on impossible dimensions.
-Function make_function(int ambient_dim, int codim,
-                       std::function<void(std::span<const double>, std::span<double>)> f);
+Function make_function(int ambient_dim, int codim, std::function<void(std::span<const double>, std::span<double>)> f);
 
 }  // namespace whitney

@@ -25,7 +25,7 @@ std::string number(double value) {
 /// x1 .. xd
 Strings coordinates(int d) {
   Strings names;
-  for (int i = 1; i <= d; ++i) names.push_back("x" + std::to_string(i));
+  for (int i = 1; i <= d; ++i) names.emplace_back("x").append(std::to_string(i));
   return names;
 }
 

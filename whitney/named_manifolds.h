@@ -37,7 +37,7 @@ NamedManifold pentagon_linkage();
 
 /// Cyclo-heptane: seven atoms z_1 .. z_7, squared bond lengths c^2 = 2, squared distances of second neighbours 8c^2/3,
 /// z_1 = 0, z_7 = (c,0,0), z_6 in the plane z = 0: (z_2, z_3, z_4, z_5, z_6 without its last coordinate) in R^14.
-/// A curve of closed loops. Source: SoCG 2021, Sect. 4.
+/// A curve; four closed loops were found by tracing, at several edge lengths. Source: SoCG 2021, Sect. 4.
 NamedManifold cyclo_heptane();
 
 /// SO(3) as pairs (u, v) of orthogonal unit vectors in R^6: the projective space RP^3, chi 0, H_1 = Z/2, orientable.

@@ -27,11 +27,11 @@ constexpr int kLanesPerVector = kRegisterBytes / int(sizeof(double));
 typedef double Vector __attribute__((vector_size(kRegisterBytes)));
 typedef std::int64_t BitVector __attribute__((vector_size(kRegisterBytes)));
 
-/// kLanes numbers that are computed with at once. One and many go through the same code, of operations that round
-/// correctly and of the same functions of one number, so they agree in every bit.
+/// kLanes numbers that are computed with at once. One and many go through the same code, made of operations that round
+/// correctly (a compiler that fuses a multiplication with an addition does so in all of them) and of the same functions
+/// of one number, so they agree in every bit.
 template <int kLanes>
 struct Pack {
-  static constexpr int kSize = kLanes;
   static constexpr bool kIsVector = kLanes > 1;
   using Part = std::conditional_t<kIsVector, Vector, double>;
   static constexpr int kParts = kIsVector ? kLanes / kLanesPerVector : 1;

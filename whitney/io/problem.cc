@@ -219,7 +219,7 @@ Problem parse_problem(std::string_view text, const std::string& name) {
   } else {
     if (root.has("variables")) root.at("variables").fail("a named manifold has its own variables x1 .. xd");
     NamedManifold manifold = read_named(root.at("named"));
-    for (int i = 1; i <= manifold.function.ambient_dim(); ++i) variables.push_back("x" + std::to_string(i));
+    for (int i = 1; i <= manifold.function.ambient_dim(); ++i) variables.emplace_back("x").append(std::to_string(i));
     problem =
         Problem{Problem::Source::kNamed, std::move(variables), std::move(manifold.function), std::move(manifold.box)};
   }

@@ -16,7 +16,7 @@ using Vec3 = std::array<double, 3>;
 
 constexpr double kViewAngle = 24;                      // degrees, across the picture
 constexpr Vec3 kTowardsViewer = {0.42, -0.70, 0.577};  // from the front, above, a little to the right; z is up
-constexpr double kCurveRadius = 0.012;                 // of a curve's tube, in radii of the whole
+constexpr double kCurveRadius = 0.018;                 // of a curve's tube, in radii of the whole
 
 /// Six digits are finer than any picture, and keep the scene small.
 std::string short_number(double value) {
