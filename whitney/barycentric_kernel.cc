@@ -49,8 +49,10 @@ struct BarycentricKernel::Impl {
     return static_cast<Lanes*>(__builtin_assume_aligned(static_cast<void*>(buffer.data()), 64));
   }
 
-  // In-place Gauss-Jordan on A, rows exchanged where needed; the exchanges are undone on the columns at the end.
-  static void invert(Lanes* A, int n) {
+  // In-place Gauss-Jordan on A, rows exchanged where needed; the exchanges are undone on the columns at the end. Candidates for
+  // a pivot are compared relative to the size of their rows of B (`weight` is the reciprocal), so that the units of the components of
+  // f do not matter.
+  static void invert(Lanes* A, Lanes* weight, int n) {
     struct Exchange {
       int c, r;
       Mask where;
@@ -61,14 +63,15 @@ struct BarycentricKernel::Impl {
     int num_exchanges = 0;
 
     for (int c = 0; c < n; ++c) {
-      Lanes largest = abs(A[c * n + c]);
+      Lanes largest = abs(A[c * n + c]) * weight[c];
       const Lanes diagonal = largest;
-      for (int r = c + 1; r < n; ++r) largest = max(largest, abs(A[r * n + c]));
+      for (int r = c + 1; r < n; ++r) largest = max(largest, abs(A[r * n + c]) * weight[r]);
       Mask weak = diagonal < largest * kPivotThreshold;
       if (any(weak)) {
         for (int r = c + 1; r < n; ++r) {
-          const Mask here = weak & (abs(A[r * n + c]) == largest);
+          const Mask here = weak & (abs(A[r * n + c]) * weight[r] == largest);
           if (!any(here)) continue;
+          swap_where(here, weight[c], weight[r]);
           for (int j = 0; j < n; ++j) swap_where(here, A[c * n + j], A[r * n + j]);
           if (num_exchanges < kInlineExchanges)
             few[num_exchanges] = {c, r, here};
@@ -99,18 +102,21 @@ struct BarycentricKernel::Impl {
     const Lanes* B = lanes(kernel.matrix_);
     Lanes* M = lanes(kernel.inverse_);
     Lanes* column_max = lanes(kernel.column_max_);
+    Lanes* row_sum = lanes(kernel.solution_);  // sum_j |B_lj|; free until pivot()
+    Lanes* weight = column_max;                // free until the inverse is there
+    for (int l = 0; l < n; ++l) {
+      Lanes sum{};
+      for (int j = 0; j < n; ++j) sum += abs(B[l * n + j]);
+      row_sum[l] = sum;
+      weight[l] = 1.0 / sum;
+    }
     for (int i = 0; i < n * n; ++i) M[i] = B[i];
-    invert(M, n);
+    invert(M, weight, n);
 
     const double gamma = 4 * (n + 3) * kUnitRoundoff;
-    Lanes* row_sum = lanes(kernel.solution_);  // sum_j |B_lj|; free until pivot()
     for (int l = 0; l < n; ++l) {
-      Lanes sum{}, largest{};
-      for (int j = 0; j < n; ++j) {
-        sum += abs(B[l * n + j]);
-        largest = max(largest, abs(M[j * n + l]));
-      }
-      row_sum[l] = sum;
+      Lanes largest{};
+      for (int j = 0; j < n; ++j) largest = max(largest, abs(M[j * n + l]));
       column_max[l] = largest;
     }
     Lanes rho{};

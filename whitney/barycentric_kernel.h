@@ -17,8 +17,8 @@ namespace whitney {
 /// Every decision is proven or declared undecided. With the computed inverse M~ and R = I - M~ B, norm_inf(R) = rho < 1:
 ///   M = (I - R)^-1 M~, hence |M - M~|_ij <= rho/(1-rho) max_s |M~_sj|,
 /// and R itself is computed with its rounding error bounded by gamma |M~||B| (gamma = a small multiple of u (k+2)).
-/// So neither the algorithm that found M~ nor its order of operations matters to correctness. Nothing depends on the
-/// unit of a component of f except the choice of pivots.
+/// So neither the algorithm that found M~ nor its order of operations matters to correctness. Multiplying a component of
+/// f by a power of two changes no result.
 ///
 /// Results are a function of the simplex alone, not of its lane or of its neighbours in the batch.
 class BarycentricKernel {

@@ -69,15 +69,20 @@ class Search {
   }
 
   // Newton's method with steps of least norm. Converged: a step far below the size of the box. At a regular point convergence is
-  // quadratic; where the rows of Df are dependent it is linear, or the triangular factor of Df^T loses rank.
+  // quadratic; where the rows of Df are dependent it is linear, or the triangular factor of Df^T loses rank, or (derivatives
+  // taken by differences hide the former) a row shrinks to almost nothing.
   std::optional<VectorXd> project(VectorXd x) {
-    VectorXd f;
+    VectorXd f, largest_row = VectorXd::Zero(k_);
+    bool vanishing = false;
     MatrixXd J;
     double previous = 0;
     for (int i = 0; i < options_.max_iterations; ++i) {
       if (!value(x, f) || !jacobian(x, J)) return std::nullopt;
+      vanishing = false;
       for (int r = 0; r < k_; ++r) {
         const double size = J.row(r).norm();
+        largest_row[r] = std::max(largest_row[r], size);
+        vanishing = vanishing || size < 1e-6 * largest_row[r];
         if (size > 0) {
           J.row(r) /= size;
           f[r] /= size;
@@ -97,7 +102,7 @@ class Search {
       if (!std::isfinite(length)) return std::nullopt;
       if (length < 1e-11 * diagonal_) {
         if (((x - lower_).array() < 0).any() || ((upper_ - x).array() < 0).any()) return std::nullopt;
-        if (last_pivot < 1e-6 || (i > 0 && length > 0.1 * previous)) {
+        if (vanishing || last_pivot < 1e-6 || (i > 0 && length > 0.1 * previous)) {
           ++found_.num_singular;
           return std::nullopt;
         }
@@ -139,7 +144,8 @@ class Search {
       const double damping = length > 0.1 * diagonal_ ? 0.1 * diagonal_ / length : 1;
       x -= damping * step.head(d_);
       mu -= damping * step.tail(k_);
-      if (length < 1e-7 * diagonal_) return project(x);  // projection finishes it and checks box and rank
+      // Projection finishes it and checks box and rank; from a little beside, so that its rate of convergence shows.
+      if (length < 1e-7 * diagonal_) return project(x + 1e-3 * diagonal_ * direction_);
       if ((x - 0.5 * (lower_ + upper_)).norm() > 2 * diagonal_) return std::nullopt;
       if (!value(x, f) || !jacobian(x, J)) return std::nullopt;
     }

@@ -100,9 +100,9 @@ class Tracer {
   static std::size_t flag_words(int intrinsic_dim) { return ((std::size_t{2} << intrinsic_dim) - 2 + 63) / 64; }
 
   double* value(std::uint32_t vertex) { return &values_[std::size_t{vertex} * k_]; }
-  void enqueue(std::uint32_t id, std::uint64_t hash, const std::uint32_t* vertices);
+  // Room for the k + 1 vertices of a simplex that joins the queue.
+  std::uint32_t* enqueue(std::uint32_t id, std::uint64_t hash);
   Pending pending(std::size_t i);
-  std::uint32_t intern_vertex(const std::int32_t* z, std::uint64_t form);
   void evaluate_new_vertices();
   bool start_from(const Crossing& crossing);
   bool grow();
@@ -114,6 +114,7 @@ class Tracer {
   coxeter::PartLists part_lists(std::size_t slot) {
     return {&elements_[slot * (d_ + 1)], &starts_[slot * (k_ + 2)], &numbers_[slot * (k_ + 2)]};
   }
+  OracleError not_finite(int component, double value, const double* x) const;
   bool should_stop();
   double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
   TraceResult result();
@@ -124,9 +125,8 @@ class Tracer {
   const int d_, k_;
 
   VertexTable vertices_;
-  GrowingArray<double> values_;  // f times scale_, k a vertex; meaningless where outside_
+  GrowingArray<double> values_;  // f, k a vertex; meaningless where outside_
   GrowingArray<char> outside_;   // filled only when there is a box
-  std::vector<double> scale_;    // powers of two: makes the components of f about as large as each other
   SimplexTable<Index> simplices_;
   GrowingArray<double> points_;  // d a simplex
   BarycentricKernel kernel_;
@@ -152,11 +152,11 @@ class Tracer {
 };
 
 template <class Index>
-void Tracer<Index>::enqueue(std::uint32_t id, std::uint64_t hash, const std::uint32_t* vertices) {
+std::uint32_t* Tracer<Index>::enqueue(std::uint32_t id, std::uint64_t hash) {
   std::uint32_t* entry = next_queue_.extend(queue_stride());
   entry[0] = id;
   std::memcpy(entry + 1, &hash, sizeof hash);
-  std::copy_n(vertices, k_ + 1, entry + 3);
+  return entry + 3;
 }
 
 template <class Index>
@@ -167,10 +167,16 @@ typename Tracer<Index>::Pending Tracer<Index>::pending(std::size_t i) {
   return simplex;
 }
 
-// A vertex that is new gets room for its values and waits for evaluate_new_vertices().
 template <class Index>
-std::uint32_t Tracer<Index>::intern_vertex(const std::int32_t* z, std::uint64_t form) {
-  return vertices_.intern(z, form);
+OracleError Tracer<Index>::not_finite(int component, double value, const double* x) const {
+  std::string at;
+  char number[32];
+  for (int c = 0; c < d_; ++c) {
+    std::snprintf(number, sizeof number, "%s%.17g", c ? ", " : "", x[c]);
+    at += number;
+  }
+  return OracleError("component " + std::to_string(component + 1) + " of f is " + (std::isnan(value) ? "NaN" : "infinite") +
+                     " at (" + at + ")");
 }
 
 template <class Index>
@@ -202,17 +208,8 @@ void Tracer<Index>::evaluate_new_vertices() {
     }
     for (int r = 0; r < k_; ++r) {
       const double value = f_values_[read * k_ + r];
-      if (!std::isfinite(value)) {
-        std::string at;
-        char number[32];
-        for (int c = 0; c < d_; ++c) {
-          std::snprintf(number, sizeof number, "%s%.17g", c ? ", " : "", x_[read * d_ + c]);
-          at += number;
-        }
-        throw OracleError("component " + std::to_string(r + 1) + " of f is " + (std::isnan(value) ? "NaN" : "infinite") +
-                          " at (" + at + ")");
-      }
-      values[i * k_ + r] = value * scale_[r];
+      if (!std::isfinite(value)) throw not_finite(r, value, &x_[read * d_]);
+      values[i * k_ + r] = value;
     }
     ++read;
   }
@@ -263,10 +260,7 @@ void Tracer<Index>::take(const Pending& simplex, const Step& step) {
   const std::size_t known = simplices_.size();
   const std::uint32_t id = simplices_.intern(step.key, step.hash);
   if (id == known) {
-    std::uint32_t* entry = next_queue_.extend(queue_stride());
-    entry[0] = id;
-    std::memcpy(entry + 1, &step.hash, sizeof step.hash);
-    std::uint32_t* out = entry + 3;
+    std::uint32_t* out = enqueue(id, step.hash);
     const std::uint32_t* v = simplex.vertices;
     for (int position = 0; position <= k_ + 1; ++position) {
       const std::uint32_t vertex = position == step.over.inserted ? step.candidate->vertex : *v++;
@@ -328,7 +322,7 @@ void Tracer<Index>::process(std::size_t first, std::size_t count) {
         else
           for (int i = 0; i < d_; ++i) --z_[i];
       }
-      candidate.vertex = intern_vertex(z_.data(), candidate.form);
+      candidate.vertex = vertices_.intern(z_.data(), candidate.form);
     }
   }
   evaluate_new_vertices();
@@ -395,7 +389,7 @@ bool Tracer<Index>::start_from(const Crossing& crossing) {
   for (int c = 0; c < d_; ++c) SimplexTable<Index>::parts_of(key)[c] = static_cast<Index>(crossing.parts[c]);
   for (int q = 0; q <= k_; ++q) {
     const std::uint64_t form = vertices_.form_of(z.data());
-    ids[q] = intern_vertex(z.data(), form);
+    ids[q] = vertices_.intern(z.data(), form);
     hash += coxeter::mix64(form);
     for (int c = 0; c < d_; ++c) z[c] += crossing.parts[c] == q;
   }
@@ -404,7 +398,7 @@ bool Tracer<Index>::start_from(const Crossing& crossing) {
   const std::size_t known = simplices_.size();
   const std::uint32_t id = simplices_.intern(key, hash);
   if (id < known) return false;
-  enqueue(id, hash, ids.data());
+  std::copy(ids.begin(), ids.end(), enqueue(id, hash));
   return true;
 }
 
@@ -460,9 +454,8 @@ TraceResult Tracer<Index>::run(std::span<const double> seed_points) {
   weights_.resize(k_ + 1);
   sums_.resize(k_ + 1);
   y_.resize(d_);
-  scale_.assign(k_, 1.0);
 
-  std::vector<double> x(d_), largest(k_, 0.0);
+  std::vector<double> x(d_);
   SeedSearch search(triangulation_, k_, [&](const std::int32_t* z, double* values) {
     triangulation_.cartesian({z, std::size_t(d_)}, x);
     if (options_.box)
@@ -470,24 +463,16 @@ TraceResult Tracer<Index>::run(std::span<const double> seed_points) {
         if (!(x[c] >= options_.box->lower[c] && x[c] <= options_.box->upper[c])) return false;
     f_.evaluate(x, {values, std::size_t(k_)});
     for (int r = 0; r < k_; ++r) {
-      if (!std::isfinite(values[r])) throw OracleError(std::string("f is not finite near a seed point: component ") + std::to_string(r + 1));
-      largest[r] = std::max(largest[r], std::abs(values[r]));
+      if (!std::isfinite(values[r])) throw not_finite(r, values[r], x.data());
     }
     return true;
   });
 
   TraceResult out;
-  bool first = true;
   for (std::size_t i = 0; i + d_ <= seed_points.size() && stop_ == StopReason::kNone; i += d_) {
     SeedReport report;
     Crossing crossing;
     if (search.search(seed_points.subspan(i, d_), options_.max_seed_simplices, crossing, report.reason)) {
-      if (first) {
-        // Powers of two, so that values keep all their bits.
-        for (int r = 0; r < k_; ++r)
-          if (largest[r] > 0) scale_[r] = std::ldexp(1.0, std::clamp(-std::ilogb(largest[r]), -1000, 1000));
-        first = false;
-      }
       report.outcome = start_from(crossing) ? SeedReport::Outcome::kUsed : SeedReport::Outcome::kMerged;
       grow();
     }
@@ -520,7 +505,6 @@ TraceResult Tracer<Index>::result() {
   std::vector<std::uint32_t> rank(vertex_order.size());
   for (std::size_t i = 0; i < vertex_order.size(); ++i) rank[vertex_order[i]] = static_cast<std::uint32_t>(i);
   permute_rows(out.vertex_coordinates_.data(), d_, vertex_order);
-  for (std::size_t i = 0; i < values_.size(); ++i) values_[i] /= scale_[i % k_];
   permute_rows(values_.data(), k_, vertex_order);
   out.vertex_values_ = std::move(values_);
 

@@ -51,7 +51,7 @@ std::set<Simplex> all_hit(const Function& f, const coxeter::Triangulation& trian
 }
 
 TEST(CellComplex, HasExactlyTheSimplicesThatBruteForceFinds) {
-  for (const auto& [n, d, radius] : {std::tuple{1, 2, 2.3}, {2, 3, 2.0}, {1, 3, 1.9}, {2, 4, 1.5}, {3, 4, 1.0}}) {
+  for (const auto& [n, d, radius] : {std::tuple{1, 2, 2.3}, {2, 3, 2.0}, {1, 3, 1.9}, {2, 4, 1.0}, {3, 4, 1.0}}) {
     const NamedManifold m = sphere(n, d, radius);
     for (const bool exact : {true, false}) {
       const auto triangulation = exact ? coxeter::freudenthal(d, std::sqrt(double(d))) : coxeter::coxeter_a(d, 1.3);
@@ -60,7 +60,7 @@ TEST(CellComplex, HasExactlyTheSimplicesThatBruteForceFinds) {
         std::set<Simplex> found;
         for (std::size_t i = 0; i < complex.num_cells(j); ++i) found.insert(complex.simplex(j, i));
         EXPECT_EQ(found.size(), complex.num_cells(j));
-        EXPECT_EQ(found, all_hit(m.function, triangulation, 5, d - n + j)) << "n " << n << " d " << d << " j " << j;
+        EXPECT_EQ(found, all_hit(m.function, triangulation, d == 4 ? 3 : 5, d - n + j)) << "n " << n << " d " << d << " j " << j;
       }
     }
   }

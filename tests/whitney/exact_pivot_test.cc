@@ -79,7 +79,7 @@ TEST(ExactPivot, WeightsAreBarycentricCoordinates) {
   // The smallest and the largest doubles in one column.
   const double tiny = 5e-324, huge = -1.7e308;
   const auto extreme = whitney::exact_weights(std::vector{&tiny, &huge});
-  EXPECT_EQ(extreme[0], 1.0);
+  EXPECT_DOUBLE_EQ(extreme[0], 1.0);
   EXPECT_GE(extreme[1], 0.0);
 }
 

@@ -88,12 +88,12 @@ inline std::vector<TraceCase> trace_cases() {
   add("S^2 in R^3", sphere(2, 3), 0.3, 2, 1, {"Z", "0", "Z"});
   add("S^2 in R^5", sphere(2, 5), 0.5, 2, 1, {"Z", "0", "Z"});
   add("S^3 in R^4", sphere(3, 4), 0.6, 0, 1, {"Z", "0", "0", "Z"});
-  add("S^3 in R^6", sphere(3, 6), 0.9, 0, 1, {"Z", "0", "0", "Z"});
+  add("S^3 in R^6", sphere(3, 6), 1.0, 0, 1, {"Z", "0", "0", "Z"});
   add("S^4 in R^5", sphere(4, 5), 1.0, 2, 1, {"Z", "0", "0", "0", "Z"});
   add("flat torus in R^4", flat_torus(4), 0.3, 0, 1, {"Z", "Z^2", "Z"});
   add("flat torus in R^10", flat_torus(10), 0.9, 0, 1, {"Z", "Z^2", "Z"});
   add("torus of revolution", torus_of_revolution(), 0.4, 0, 1, {"Z", "Z^2", "Z"});
-  add("SO(3)", so3_vectors(), 0.5, 0, 1, {"Z", "Z/2", "0", "Z"});
+  add("SO(3)", so3_vectors(), 0.85, 0, 1, {"Z", "Z/2", "0", "Z"});
   add("trefoil", trefoil(), 0.2, 0, 1, {"Z", "Z"});
   add("chair", chair(3), 0.12, -4, 1, {"Z", "Z^6", "Z"});
   add("pentagon linkage", pentagon_linkage(), 0.25, -6, 1, {"Z", "Z^8", "Z"});
