@@ -5,7 +5,7 @@
 //
 //   trace_bench [--runs R] [--peer-runs P] [case ...]      cases: s2r3 t2r4 s3r6 t2r8 t2r10 t2r10fine
 #include <coxeter/triangulation.h>
-#include <sys/resource.h>
+#include <malloc.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
@@ -19,8 +19,10 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -138,21 +140,40 @@ std::size_t run_peer(const Manifold& manifold, const whitney::coxeter::Triangula
 }
 #endif
 
-/// Growth of peak memory in a child process that runs `work`, in bytes.
-double peak_growth(const std::function<void()>& work) {
-  double peak[2];
-  for (int with = 0; with < 2; ++with) {
-    const pid_t child = fork();
-    if (child == 0) {
-      if (with) work();
-      _exit(0);
+/// A line of /proc/self/status, in bytes.
+double status_bytes(const char* key) {
+  std::FILE* file = std::fopen("/proc/self/status", "r");
+  char line[256];
+  double kilobytes = 0;
+  while (file && std::fgets(line, sizeof line, file))
+    if (std::strncmp(line, key, std::strlen(key)) == 0) kilobytes = std::atof(line + std::strlen(key));
+  if (file) std::fclose(file);
+  return kilobytes * 1024;
+}
+
+/// How far the peak of resident memory lies above what was resident before `work`, after `before`; in a child process of its own.
+double peak_growth(const std::function<void()>& before, const std::function<void()>& work) {
+  int ends[2];
+  if (pipe(ends) != 0) return 0;
+  const pid_t child = fork();
+  if (child == 0) {
+    before();
+    malloc_trim(0);
+    if (std::FILE* file = std::fopen("/proc/self/clear_refs", "w")) {
+      std::fputs("5", file);  // forget the peak so far
+      std::fclose(file);
     }
-    int status;
-    rusage usage{};
-    wait4(child, &status, 0, &usage);
-    peak[with] = double(usage.ru_maxrss) * 1024;
+    const double resident = status_bytes("VmRSS:");
+    work();
+    const double growth = status_bytes("VmHWM:") - resident;
+    _exit(write(ends[1], &growth, sizeof growth) == sizeof growth ? 0 : 1);
   }
-  return peak[1] - peak[0];
+  double growth = 0;
+  if (read(ends[0], &growth, sizeof growth) != sizeof growth) growth = -1;
+  waitpid(child, nullptr, 0);
+  close(ends[0]);
+  close(ends[1]);
+  return growth;
 }
 
 struct Case {
@@ -192,7 +213,16 @@ void run(const Case& c, int runs, int peer_runs) {
     evaluations = traced.evaluations;
     vertices = traced.num_vertices();
   }
-  const double growth = peak_growth([&] { (void)whitney::trace(f, triangulation, seed_span); });
+  std::optional<whitney::TraceResult> traced_there;
+  std::optional<whitney::CellComplex> complex_there;
+  auto trace_it = [&] { traced_there = whitney::trace(f, triangulation, seed_span); };
+  auto complex_it = [&] { complex_there = whitney::cell_complex(*traced_there); };
+  auto trace_and_complex = [&] {
+    trace_it();
+    complex_it();
+    traced_there.reset();
+  };
+  const double growth = peak_growth([] {}, trace_it);
   std::printf("%-18s %8zu %9.4f %7.3f %9zu %9zu %6.0f", c.title, simplices, median(ours), median(ours) / double(simplices) * 1e6,
               evaluations, vertices, growth / double(simplices));
   if (!theirs.empty())
@@ -207,15 +237,15 @@ void run(const Case& c, int runs, int peer_runs) {
   const double complex_seconds = cpu_seconds() - start;
   std::size_t cells = 0;
   for (int j = 0; j <= c.n; ++j) cells += complex.num_cells(j);
-  const double complex_growth = peak_growth([&] { (void)whitney::cell_complex(traced); });
+  const double complex_growth = peak_growth(trace_it, complex_it);
   start = cpu_seconds();
   const std::size_t pulled = whitney::pulled_subdivision(complex).num_simplices();
   const double pulled_seconds = cpu_seconds() - start;
-  const double pulled_growth = peak_growth([&] { (void)whitney::pulled_subdivision(complex); });
+  const double pulled_growth = peak_growth(trace_and_complex, [&] { (void)whitney::pulled_subdivision(*complex_there); });
   start = cpu_seconds();
   const std::size_t barycentric = whitney::barycentric_subdivision(complex).num_simplices();
   const double barycentric_seconds = cpu_seconds() - start;
-  const double barycentric_growth = peak_growth([&] { (void)whitney::barycentric_subdivision(complex); });
+  const double barycentric_growth = peak_growth(trace_and_complex, [&] { (void)whitney::barycentric_subdivision(*complex_there); });
   std::printf("    cells %zu: Hasse diagram %.3f us, %.0f bytes a cell; pulled %.3f us, %.0f bytes a simplex (%zu);"
               " barycentric %.3f us, %.0f bytes a simplex (%zu)\n",
               cells, complex_seconds / double(cells) * 1e6, complex_growth / double(cells),

@@ -44,44 +44,39 @@ bool next_lengths(std::uint16_t* lengths, std::size_t pieces, std::size_t total)
 
 CofaceEnumeration::CofaceEnumeration(const Simplex& simplex, int coface_dim)
     : simplex_(simplex),
-      num_parts_(simplex.dim() + 1),
       num_pieces_(static_cast<std::size_t>(checked_coface_dim(simplex, coface_dim)) + 1),
       coface_(SimplexWriter::resized(simplex, coface_dim + 1)),
-      coface_out_(coface_) {
+      out_(coface_) {
   const auto ends = simplex.partition().ends();
   std::size_t begin = 0, total = 0;
-  for (int q = 0; q < num_parts_; ++q) {
-    const std::size_t size = ends[static_cast<std::size_t>(q)] - begin;
-    if (size > 1) {
-      digits_.push_back({q, begin, size, 1, 0, 0, nullptr, nullptr});
+  for (std::size_t q = 0; q < ends.size(); ++q) {
+    const std::size_t size = ends[q] - begin;
+    if (size > 1 || q + 1 == ends.size()) {
+      parts_.push_back({q, begin, size, 1});
       total += size;
     }
     begin += size;
   }
-  storage_.resize_for_overwrite(2 * total);
-  std::uint16_t* free = storage_.data();
-  for (Digit& digit : digits_) {
-    digit.labels = free;
-    digit.lengths = free + digit.size;
-    free += 2 * digit.size;
-  }
-  distribute(0, num_pieces_ - static_cast<std::size_t>(num_parts_));
+  storage_.resize_for_overwrite(2 * total + 2 * parts_.back().size);
+  mask_ = storage_.data() + 2 * total;
+  last_ = mask_ + parts_.back().size;
+  distribute(0, num_pieces_ - ends.size());
 }
 
-/// Cuts the digits from first_digit on `extra` times, the last ones first.
-void CofaceEnumeration::distribute(std::size_t first_digit, std::size_t extra) {
-  for (std::size_t i = digits_.size(); i-- > first_digit;) {
-    const std::size_t cuts = std::min(extra, digits_[i].size - 1);
-    digits_[i].pieces = 1 + cuts;
+/// Cuts the parts from first_part on `extra` times, the last ones first.
+void CofaceEnumeration::distribute(std::size_t first_part, std::size_t extra) {
+  for (std::size_t i = parts_.size(); i-- > first_part;) {
+    const std::size_t cuts = std::min(extra, parts_[i].size - 1);
+    parts_[i].pieces = 1 + cuts;
     extra -= cuts;
   }
 }
 
 bool CofaceEnumeration::next_composition() {
-  std::size_t extra = 0;  // cuts of the digits after i
-  for (std::size_t i = digits_.size(); i-- > 0; extra += digits_[i].pieces - 1) {
-    if (extra == 0 || digits_[i].pieces == digits_[i].size) continue;
-    ++digits_[i].pieces;
+  std::size_t extra = 0;  // cuts of the parts after i
+  for (std::size_t i = parts_.size(); i-- > 0; extra += parts_[i].pieces - 1) {
+    if (extra == 0 || parts_[i].pieces == parts_[i].size) continue;
+    ++parts_[i].pieces;
     distribute(i + 1, extra - 1);
     return true;
   }
@@ -89,87 +84,46 @@ bool CofaceEnumeration::next_composition() {
 }
 
 void CofaceEnumeration::start_composition() {
-  active_.clear();
-  for (std::size_t i = 0; i < digits_.size(); ++i) {
-    const Digit& digit = digits_[i];
-    if (digit.pieces == 1) continue;
-    active_.push_back(static_cast<std::uint16_t>(i));
-    reset_lengths(digit.lengths, digit.pieces, digit.size);
-    sort_labels(digit.labels, digit.lengths, digit.pieces);
-  }
   unwrap();
-  place_middle(0, 0);
-  if (!active_.empty() && is_last(digits_[active_.back()])) {
-    write_last(digits_[active_.back()]);
-  } else {
-    const auto elements = simplex_.partition().elements();
-    const std::size_t begin = elements.size() - simplex_.partition().part(num_parts_ - 1).size();
-    std::copy(elements.begin() + static_cast<std::ptrdiff_t>(begin), elements.end(), coface_out_.elements + begin);
-    coface_out_.ends[num_pieces_ - 1] = static_cast<std::uint16_t>(elements.size());
+  wrapped_ = wrapped_pieces_ = 0;
+  std::fill_n(mask_, parts_.back().size - 1, std::uint16_t{0});
+  apply_wrap(true);
+}
+
+/// The next choice of what wraps: by the number of pieces, then the number of elements, then the elements.
+bool CofaceEnumeration::next_wrap() {
+  const Part& last = parts_.back();
+  const std::size_t others = last.size - 1;
+  if (std::next_permutation(mask_, mask_ + others)) {
+    unwrap();
+    apply_wrap(false);
+    return true;
   }
-}
-
-/// Writes all parts but the last, behind the pieces that have wrapped to the front.
-void CofaceEnumeration::place_middle(std::size_t wrapped_elements, std::size_t wrapped_pieces) {
-  wrapped_elements_ = wrapped_elements;
-  wrapped_pieces_ = wrapped_pieces;
-  const std::uint16_t* const ends = simplex_.partition().ends().data();
-  const std::size_t last = static_cast<std::size_t>(num_parts_) - 1;
-  if (last == 0) return;
-  std::copy_n(simplex_.partition().elements().data(), ends[last - 1], coface_out_.elements + wrapped_elements);
-  std::uint16_t* out = coface_out_.ends + wrapped_pieces;
-  std::size_t part = 0;
-  auto copy_ends = [&](std::size_t until) {
-    for (; part < until; ++part) *out++ = static_cast<std::uint16_t>(ends[part] + wrapped_elements);
-  };
-  for (const auto i : active_) {
-    Digit& digit = digits_[i];
-    if (is_last(digit)) break;
-    copy_ends(static_cast<std::size_t>(digit.part));
-    digit.position = digit.begin + wrapped_elements;
-    digit.index = static_cast<std::size_t>(out - coface_out_.ends);
-    write(digit);
-    out += digit.pieces;
-    ++part;
-  }
-  copy_ends(last);
-}
-
-void CofaceEnumeration::write(const Digit& digit) {
-  const std::uint16_t* const from = simplex_.partition().elements().data() + digit.begin;
-  std::uint16_t* const ends = coface_out_.ends + digit.index;
-  // A counting sort that turns the begins of the pieces into their ends.
-  std::size_t position = digit.position;
-  for (std::size_t t = 0; t < digit.pieces; position += digit.lengths[t], ++t)
-    ends[t] = static_cast<std::uint16_t>(position);
-  for (std::size_t i = 0; i < digit.size; ++i) coface_out_.elements[ends[digit.labels[i]]++] = from[i];
-}
-
-void CofaceEnumeration::write_last(const Digit& digit) {
+  const std::size_t most = wrapped_pieces_ == 0 ? 0 : last.size - (last.pieces - wrapped_pieces_);
+  const bool more_elements = wrapped_ < most;
+  if (!more_elements && wrapped_pieces_ + 1 == last.pieces) return false;
   unwrap();
-  const std::size_t front =
-      digit.labels[digit.size - 1] + std::size_t{1};  // pieces that stay: element d is the largest
-  const std::size_t wrapped_pieces = digit.pieces - front;
-  std::size_t wrapped_elements = 0;
-  for (std::size_t t = front; t < digit.pieces; ++t) wrapped_elements += digit.lengths[t];
-  if (wrapped_elements != wrapped_elements_ || wrapped_pieces != wrapped_pieces_)
-    place_middle(wrapped_elements, wrapped_pieces);
+  if (more_elements)
+    ++wrapped_;
+  else
+    wrapped_ = ++wrapped_pieces_;
+  std::fill_n(mask_, others, std::uint16_t{0});
+  std::fill_n(mask_ + (others - wrapped_), wrapped_, std::uint16_t{1});
+  apply_wrap(true);
+  return true;
+}
 
-  const std::size_t n = digit.begin + digit.size;
-  std::uint16_t* const wrapped_ends = coface_out_.ends;
-  std::uint16_t* const stay_ends = coface_out_.ends + (num_pieces_ - front);
-  std::size_t position = n - (digit.size - wrapped_elements);
-  for (std::size_t t = 0; t < digit.pieces; position += digit.lengths[t], ++t) {
-    if (t == front) position = 0;
-    (t < front ? stay_ends[t] : wrapped_ends[t - front]) = static_cast<std::uint16_t>(position);
-  }
-  const std::uint16_t* const from = simplex_.partition().elements().data() + digit.begin;
-  for (std::size_t i = 0; i < digit.size; ++i) {
-    const std::size_t t = digit.labels[i];
-    coface_out_.elements[(t < front ? stay_ends[t] : wrapped_ends[t - front])++] = from[i];
-  }
-  for (std::size_t i = 0; i < wrapped_elements; ++i) {
-    auto& coordinate = coface_out_.base[coface_out_.elements[i]];
+/// Puts all digits into their first states; others_move says whether the parts but the last changed their places, too.
+void CofaceEnumeration::apply_wrap(bool others_move) {
+  const Part& last = parts_.back();
+  const std::uint16_t* const from = simplex_.partition().elements().data() + last.begin;
+  std::uint16_t *wraps = last_, *stays = last_ + wrapped_;
+  for (std::size_t i = 0; i + 1 < last.size; ++i) *(mask_[i] ? wraps : stays)++ = from[i];
+  *stays = from[last.size - 1];  // element d is the largest
+  if (others_move) place_others();
+  place_last();
+  for (std::size_t i = 0; i < wrapped_; ++i) {
+    auto& coordinate = out_.base[last_[i]];
     if (coordinate == std::numeric_limits<std::int32_t>::min())
       throw LatticeOverflow("the base vertex of a coface leaves the range of int32");
     --coordinate;
@@ -178,19 +132,82 @@ void CofaceEnumeration::write_last(const Digit& digit) {
 
 /// Moves the base vertex back to that of the simplex.
 void CofaceEnumeration::unwrap() {
-  for (std::size_t i = 0; i < wrapped_elements_; ++i) ++coface_out_.base[coface_out_.elements[i]];
+  for (std::size_t i = 0; i < wrapped_; ++i) ++out_.base[last_[i]];
 }
 
-bool CofaceEnumeration::advance_large(Digit& digit) {
-  bool advanced = std::next_permutation(digit.labels, digit.labels + digit.size);
-  if (!advanced && digit.pieces < digit.size) {
+void CofaceEnumeration::place_others() {
+  digits_.clear();
+  const std::uint16_t* const elements = simplex_.partition().elements().data();
+  const std::uint16_t* const ends = simplex_.partition().ends().data();
+  std::copy_n(elements, parts_.back().begin, out_.elements + wrapped_);
+  std::uint16_t* out = out_.ends + wrapped_pieces_;
+  std::size_t part = 0;
+  auto copy_ends = [&](std::size_t until) {
+    for (; part < until; ++part) *out++ = static_cast<std::uint16_t>(ends[part] + wrapped_);
+  };
+  std::uint16_t* storage = storage_.data();
+  for (std::size_t i = 0; i + 1 < parts_.size(); ++i) {
+    const Part& p = parts_[i];
+    if (p.pieces > 1) {
+      copy_ends(p.index);
+      add_digit(elements + p.begin, p.size, false, p.pieces, out_.elements + p.begin + wrapped_, out, storage);
+      out += p.pieces;
+      ++part;
+    }
+    storage += 2 * p.size;
+  }
+  copy_ends(parts_.back().index);
+  num_other_digits_ = digits_.size();
+}
+
+void CofaceEnumeration::place_last() {
+  const Part& last = parts_.back();
+  const std::size_t stay = last.size - wrapped_, stay_pieces = last.pieces - wrapped_pieces_;
+  std::uint16_t* const storage = mask_ - 2 * last.size;
+  std::uint16_t* const out = out_.elements + last.begin + wrapped_;
+  for (std::size_t i = 0; i < wrapped_; ++i) out_.elements[i] = last_[i];
+  for (std::size_t i = 0; i < stay; ++i) out[i] = last_[wrapped_ + i];
+  if (wrapped_pieces_ == 1) out_.ends[0] = static_cast<std::uint16_t>(wrapped_);
+  out_.ends[num_pieces_ - 1] = static_cast<std::uint16_t>(last.begin + last.size);
+  digits_.truncate(num_other_digits_);
+  if (wrapped_pieces_ > 1) add_digit(last_, wrapped_, false, wrapped_pieces_, out_.elements, out_.ends, storage);
+  if (stay_pieces > 1)
+    add_digit(last_ + wrapped_, stay, true, stay_pieces, out, out_.ends + (num_pieces_ - stay_pieces),
+              storage + 2 * wrapped_);
+}
+
+/// Adds a digit in its first state: the elements in order, which the caller has written, in the first choice of
+/// lengths.
+void CofaceEnumeration::add_digit(const std::uint16_t* from, std::size_t size, bool pinned, std::size_t pieces,
+                                  std::uint16_t* out, std::uint16_t* ends, std::uint16_t* storage) {
+  const Digit digit{from, size, pinned ? size - 1 : size, pieces, out, ends, storage, storage + size};
+  digits_.push_back(digit);
+  auto position = static_cast<std::uint16_t>(out - out_.elements);
+  if (pieces < size) {
+    reset_lengths(digit.lengths, pieces, size);
+    sort_labels(digit.labels, digit.lengths, pieces);
+    for (std::size_t t = 0; t < pieces; ++t)
+      ends[t] = position = static_cast<std::uint16_t>(position + digit.lengths[t]);
+  } else {
+    for (std::size_t t = 0; t < pieces; ++t) ends[t] = ++position;
+  }
+}
+
+bool CofaceEnumeration::advance_uneven(Digit& digit) {
+  bool advanced = std::next_permutation(digit.labels, digit.labels + digit.free);
+  if (!advanced) {
     advanced = next_lengths(digit.lengths, digit.pieces, digit.size);
     sort_labels(digit.labels, digit.lengths, digit.pieces);
   }
-  if (!is_last(digit))
-    write(digit);
-  else if (advanced)
-    write_last(digit);
+  // A counting sort: it turns the begins of the pieces into their ends.
+  std::uint16_t* const ends = digit.ends;
+  auto position = static_cast<std::uint16_t>(ends[digit.pieces - 1] - digit.size);
+  std::uint16_t* const elements = digit.out - position;
+  for (std::size_t t = 0; t < digit.pieces; ++t) {
+    ends[t] = position;
+    position = static_cast<std::uint16_t>(position + digit.lengths[t]);
+  }
+  for (std::size_t i = 0; i < digit.size; ++i) elements[ends[digit.labels[i]]++] = digit.from[i];
   return advanced;
 }
 

@@ -4,6 +4,7 @@
 #include <coxeter/simplex.h>
 #include <coxeter/simplex_writer.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -13,8 +14,11 @@ namespace detail {
 
 /// Enumerates the l-cofaces of a k-simplex: every part is cut into an ordered sequence of pieces, l + 1 pieces in all.
 /// The pieces of the last part that come after the one with element d wrap to the front, and the base vertex moves with
-/// them. Outer loop: how many pieces each part gets. Inner loop: an odometer with one digit per part that is cut, whose
-/// states are its ordered partitions; the last part is the slowest digit, since it moves all the others.
+/// them. Three loops, from the outside:
+///   composition  how many pieces each part gets;
+///   wrap         which elements of the last part wrap, and into how many pieces: this moves all other elements;
+///   odometer     one digit for each part, for the elements that wrap and for those that stay, if they are cut; its
+///                states are the ordered partitions of those elements. A step rewrites only the digits that change.
 class CofaceEnumeration {
  public:
   /// Throws InvalidInput unless simplex.dim() <= coface_dim <= simplex.ambient_dim().
@@ -25,59 +29,68 @@ class CofaceEnumeration {
   bool run(Visitor& visit) {
     do {
       start_composition();
-      for (;;) {
-        if (!visit_continues(visit, coface_)) return false;
-        std::size_t i = 0;
-        while (i < active_.size() && !advance(digits_[active_[i]])) ++i;
-        if (i == active_.size()) break;
-      }
+      do {
+        for (;;) {
+          if (!visit_continues(visit, coface_)) return false;
+          std::size_t i = 0;
+          while (i < digits_.size() && !advance(digits_[i])) ++i;
+          if (i == digits_.size()) break;
+        }
+      } while (next_wrap());
     } while (next_composition());
     return true;
   }
 
  private:
+  struct Part {
+    std::size_t index, begin, size;  // in the simplex
+    std::size_t pieces;
+  };
   struct Digit {
-    int part;                // of the simplex
-    std::size_t begin;       // of its elements in the simplex
-    std::size_t size;        // number of elements, at least 2
-    std::size_t pieces;      // at most size
-    std::size_t position;    // of its elements in the coface (not for the last part)
-    std::size_t index;       // of its first piece in the coface (not for the last part)
-    std::uint16_t* labels;   // size: the piece of each element
-    std::uint16_t* lengths;  // pieces: the number of elements in each piece
+    const std::uint16_t* from;  // the elements, increasing
+    std::size_t size;
+    std::size_t free;        // the elements that move: all, or all but d, which stays in the last piece
+    std::size_t pieces;      // from 2 to size
+    std::uint16_t* out;      // the elements in the coface, piece after piece
+    std::uint16_t* ends;     // the ends of its pieces in the coface
+    std::uint16_t* labels;   // the piece of each element; not used when every piece has one
+    std::uint16_t* lengths;  // the number of elements of each piece
   };
 
-  bool is_last(const Digit& digit) const { return digit.part == num_parts_ - 1; }
-
   /// The next state of a digit, or its first again; in the latter case the result is false.
-  bool advance(Digit& digit) {
-    if (digit.size == 2 && !is_last(digit)) {
-      std::swap(digit.labels[0], digit.labels[1]);
-      std::swap(coface_out_.elements[digit.position], coface_out_.elements[digit.position + 1]);
-      return digit.labels[0] == 1;
+  static bool advance(Digit& digit) {
+    if (digit.pieces < digit.size) return advance_uneven(digit);
+    if (digit.free == 2) {
+      std::swap(digit.out[0], digit.out[1]);
+      return digit.out[0] > digit.out[1];
     }
-    return advance_large(digit);
+    return std::next_permutation(digit.out, digit.out + digit.free);
   }
 
-  bool advance_large(Digit& digit);
+  static bool advance_uneven(Digit& digit);
   void start_composition();
   bool next_composition();
-  void distribute(std::size_t first_digit, std::size_t extra);
-  void place_middle(std::size_t wrapped_elements, std::size_t wrapped_pieces);
-  void write(const Digit& digit);
-  void write_last(const Digit& digit);
+  void distribute(std::size_t first_part, std::size_t extra);
+  bool next_wrap();
+  void apply_wrap(bool others_move);
+  void place_others();
+  void place_last();
   void unwrap();
+  void add_digit(const std::uint16_t* from, std::size_t size, bool pinned, std::size_t pieces, std::uint16_t* out,
+                 std::uint16_t* ends, std::uint16_t* storage);
 
   const Simplex& simplex_;
-  int num_parts_;
-  std::size_t num_pieces_;  // l + 1
-  std::size_t wrapped_elements_ = 0;
+  std::size_t num_pieces_;            // l + 1
+  InlineArray<Part, 8> parts_;        // those with at least two elements, in order, and always the last part
+  InlineArray<Digit, 8> digits_;      // what is cut: parts but the last, then what wraps, then what stays
+  std::size_t num_other_digits_ = 0;  // those of parts but the last
+  std::size_t wrapped_ = 0;           // number of elements that wrap
   std::size_t wrapped_pieces_ = 0;
-  InlineArray<Digit, 8> digits_;            // the parts with at least two elements, in order
-  InlineArray<std::uint16_t, 8> active_;    // the digits with at least two pieces
-  InlineArray<std::uint16_t, 40> storage_;  // labels and lengths
+  InlineArray<std::uint16_t, 60> storage_;  // 2 size values per part for labels and lengths, then what follows
+  std::uint16_t* mask_;                     // of the last part without d: 1 for the elements that wrap
+  std::uint16_t* last_;                     // of the last part: the elements that wrap, then those that stay
   Simplex coface_;
-  SimplexWriter coface_out_;
+  SimplexWriter out_;
 };
 
 }  // namespace detail
@@ -85,8 +98,8 @@ class CofaceEnumeration {
 /// Calls visit(const Simplex& coface) for every coface_dim-dimensional coface of the simplex, each once, in a fixed
 /// order; the simplex itself when coface_dim is its dimension. The visitor returns void, or (as bool) whether to go on;
 /// the result is false when it stopped. The coface lives in one buffer that the next call overwrites: copy what is to
-/// stay. Allocates at most a fixed number of times per call of this function, and never for d <= 16; the work per
-/// coface is proportional to the parts that change, and O(d) when the last part is cut anew. Throws InvalidInput unless
+/// stay. Allocates at most a fixed number of times per call, nothing per coface; the work per coface is proportional to
+/// the parts that change, and O(d) when other elements of the last part come before v_0. Throws InvalidInput unless
 /// simplex.dim() <= coface_dim <= simplex.ambient_dim(), LatticeOverflow when a base vertex leaves the range of int32.
 template <class Visitor>
 bool for_each_coface(const Simplex& simplex, int coface_dim, Visitor&& visit) {

@@ -29,6 +29,17 @@ struct PartLists {
 /// Splits of a part with `size` elements.
 inline std::uint32_t num_splits(int size) { return (std::uint32_t{1} << size) - 2; }
 
+/// Up to this ambient dimension sets of coordinates travel as bits.
+inline constexpr int kMaxBitsDim = 31;
+
+/// The half of a split whose coordinates do not move up by one with the rest, as bits over the coordinates 0..d-1, given those of
+/// the first half A (`first`, element d as bit d) and of the whole part. When A holds element d, the vertex added is
+/// w = v_0 - e(B), the new base vertex, and B becomes part 0; otherwise w = v_q + e(A), and A keeps the number q.
+inline std::uint32_t special_half(std::uint32_t first, std::uint32_t whole, int d) {
+  const std::uint32_t top = std::uint32_t{1} << d;
+  return first & top ? whole & ~first : first & ~top;
+}
+
 /// Fills the lists from part numbers of the coordinates 0..d-1 (k + 1 parts; element d is in the last one).
 template <class Index>
 void list_parts(const Index* parts, int d, int k, PartLists lists) {
@@ -57,16 +68,26 @@ struct CofacetStep {
 
 namespace detail {
 
+/// Eight bits to eight bytes of all ones or all zeros.
+inline std::uint64_t bytes_of_bits(std::uint32_t bits) {
+#ifdef __BMI2__
+  return _pdep_u64(bits, 0x0101010101010101) * 0xff;
+#else
+  const std::uint64_t spread = (bits * 0x8040201008040201ull >> 7) & 0x0101010101010101ull;
+  return __builtin_bswap64(spread) * 0xff;
+#endif
+}
+
 #ifdef __SSE2__
 /// The sixteen-coordinate form: everything in two registers.
 template <class Index>
-std::uint32_t step_parts_short(const Index* parts, int d, int k, std::uint64_t special_low, std::uint64_t special_high,
-                               bool new_base, int q, int removed, int merged, int half, Index* out) {
+std::uint32_t step_parts_short(const Index* parts, int d, int k, std::uint32_t special_bits, bool new_base, int q,
+                               int removed, int merged, int half, Index* out) {
   using Bytes = std::uint8_t __attribute__((vector_size(16)));
   auto all = [](int x) { return Bytes{} + static_cast<std::uint8_t>(x); };
   Bytes p;
   std::memcpy(&p, parts, sizeof p);
-  const std::uint64_t words[2] = {special_low, special_high};
+  const std::uint64_t words[2] = {bytes_of_bits(special_bits & 0xff), bytes_of_bits(special_bits >> 8)};
   Bytes special;
   std::memcpy(&special, words, sizeof special);
   Bytes tau;
@@ -129,35 +150,30 @@ inline constexpr int kStepSlack = 16;
 
 /// From sigma (part numbers `parts`, lists of them) over the cofacet that splits part q by `split` to the face without vertex
 /// `leaving` of sigma (0..k): writes the part numbers of sigma' to `out`, which may not overlap `parts`.
+/// special: the special_half() of the split; read only if d <= 16.
 template <class Index>
 CofacetStep step_over_cofacet(const Index* parts, const PartLists& lists, int d, int k, int q, std::uint32_t split,
-                              int leaving, Index* out) {
+                              [[maybe_unused]] std::uint32_t special, int leaving, Index* out) {
   const int size = lists.size(q);
-  const std::uint32_t whole = (std::uint32_t{1} << size) - 1;
-  // w = v_q + e(A); as e(0) + .. + e(d) = 0, that is v_0 - e(B) when A holds the element d (in the last part, its largest).
   const bool new_base = q == k && (split >> (size - 1) & 1);
   const int inserted = new_base ? 0 : q + 1;
   const int removed = leaving < inserted ? leaving : leaving + 1;
   // Without its vertex number `removed`, parts removed-1 and removed of tau become one; without the base, part 0 joins the last.
   const int merged = removed == 0 ? k : removed - 1;
   const int half = removed == 0 ? k + 1 : removed - 1;
-  // In tau the halves have numbers q and q + 1, except that B becomes part 0 when w is the base. `special` are the elements that do
-  // not move up by one with the rest.
-  std::uint32_t special = new_base ? whole & ~split : split;
-  if (q == k) special &= whole >> 1;  // element d has no part number of its own: it is always in the last part
 
   std::uint32_t new_split;
 #ifdef __SSE2__
   if (sizeof(Index) == 1 && d <= 16) {
-    std::uint64_t mask[2] = {0, 0};
-    for (std::uint32_t rest = special; rest != 0; rest &= rest - 1) {
-      const int c = lists.part(q)[std::countr_zero(rest)];
-      mask[c >> 3] |= std::uint64_t{0xff} << (8 * (c & 7));
-    }
-    new_split = detail::step_parts_short(parts, d, k, mask[0], mask[1], new_base, q, removed, merged, half, out);
+    new_split = detail::step_parts_short(parts, d, k, special, new_base, q, removed, merged, half, out);
   } else  // NOLINT(readability-misleading-indentation)
 #endif
-    new_split = detail::step_parts(parts, d, k, lists.part(q), special, new_base, q, removed, merged, half, out);
+  {
+    const std::uint32_t whole = (std::uint32_t{1} << size) - 1;
+    std::uint32_t moved = new_base ? whole & ~split : split;
+    if (q == k) moved &= whole >> 1;  // element d has no part number of its own: it is always in the last part
+    new_split = detail::step_parts(parts, d, k, lists.part(q), moved, new_base, q, removed, merged, half, out);
+  }
 
   // Splits of the parts of sigma' before the merged one: those of tau before it.
   const int in_first = std::popcount(split), in_second = size - in_first;

@@ -55,8 +55,10 @@ class FaceEnumeration {
   static constexpr std::size_t kNarrow = 16, kWide = 32;  // elements per row, see rows_
 
   /// Which of the recursions below to take; they visit the same faces. Dropping has (L+1) / (k+1) nodes per face,
-  /// keeping has (L+1) / (L-k+1), and a node costs a fraction.
-  bool drops_cuts(int num_dropped) const { return num_dropped == 1 || 4 * (num_dropped + 1) <= face_dim_ + 2; }
+  /// keeping has (L+1) / (L-k+1), and a node of the latter costs about half, with narrow rows a quarter.
+  bool drops_cuts(int num_dropped) const {
+    return num_dropped == 1 || (width_ == kNarrow ? 4 : 2) * num_dropped < face_dim_;
+  }
 
   /// Drops `todo` of the cuts from `first` on; `dropped` were dropped before it. `start`: where the block begins that
   /// cut `first` ends.
@@ -206,8 +208,8 @@ class FaceEnumeration {
 /// Calls visit(const Simplex& face) for every face_dim-dimensional face of the simplex, each once, in a fixed order;
 /// the simplex itself when face_dim is its dimension. The visitor returns void, or (as bool) whether to go on; the
 /// result is false when it stopped. The face lives in one buffer that the next call overwrites: copy what is to stay.
-/// Allocates at most a fixed number of times per call of this function, and never for d <= 16; the work per face is
-/// proportional to the parts that change. Throws InvalidInput unless 0 <= face_dim <= simplex.dim().
+/// Allocates at most a fixed number of times per call, nothing per face; the work per face is proportional to the parts
+/// that change. Throws InvalidInput unless 0 <= face_dim <= simplex.dim().
 template <class Visitor>
 bool for_each_face(const Simplex& simplex, int face_dim, Visitor&& visit) {
   return detail::FaceEnumeration(simplex, face_dim).run(visit);

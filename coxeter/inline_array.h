@@ -71,6 +71,8 @@ class InlineArray {
     copy(first, last, data());
   }
   void clear() { size_ = 0; }
+  /// Keeps the first `size` values; size must not exceed size().
+  void truncate(std::size_t size) { size_ = size; }
   void push_back(const T& value) {
     if (size_ == capacity_) grow();
     data()[size_++] = value;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <coxeter/vertex_table.h>
 
-#include <cstring>
 #include <limits>
 #include <string>
 #include <utility>
@@ -25,15 +24,7 @@ std::uint64_t VertexTable::form_of(const std::int32_t* z) const {
   return form;
 }
 
-std::uint32_t VertexTable::find(const std::int32_t* z, std::uint64_t form) const {
-  return slots_.find(mix64(form), [&](std::uint32_t index) {
-    return forms_[index] == form && std::memcmp(coordinates(index), z, dim_ * sizeof *z) == 0;
-  });
-}
-
-std::uint32_t VertexTable::intern(const std::int32_t* z, std::uint64_t form) {
-  const std::uint32_t found = find(z, form);
-  if (found != HashSlots::kNone) return found;
+std::uint32_t VertexTable::enter(const std::int32_t* z, std::uint64_t form) {
   constexpr std::int32_t kLargest = std::numeric_limits<std::int32_t>::max() - 2;
   for (int i = 0; i < dim_; ++i)
     if (z[i] > kLargest || z[i] < -kLargest)

@@ -30,12 +30,27 @@ class VertexTable {
   const std::uint64_t* weights() const { return weights_.data(); }
   std::uint64_t form_of(const std::int32_t* z) const;
 
-  /// The index of z, or HashSlots::kNone. form must be form_of(z).
-  std::uint32_t find(const std::int32_t* z, std::uint64_t form) const;
+  /// The index of z, or HashSlots::kNone. form must be form_of(z). kDim: the ambient dimension where it is known at
+  /// compile time, else 0.
+  template <int kDim = 0>
+  std::uint32_t find(const std::int32_t* z, std::uint64_t form) const {
+    const int dim = kDim > 0 ? kDim : dim_;
+    return slots_.find(mix64(form), [&](std::uint32_t index) {
+      if (forms_[index] != form) return false;
+      const std::int32_t* known = coordinates_.data() + std::size_t{index} * dim;
+      std::int32_t difference = 0;
+      for (int c = 0; c < dim; ++c) difference |= known[c] ^ z[c];
+      return difference == 0;
+    });
+  }
 
   /// The index of z, entered if it is new (then it is size() - 1 afterwards).
   /// Throws LatticeOverflow when a coordinate of a new vertex is so large that a neighbour's would not fit in 32 bits.
-  std::uint32_t intern(const std::int32_t* z, std::uint64_t form);
+  template <int kDim = 0>
+  std::uint32_t intern(const std::int32_t* z, std::uint64_t form) {
+    const std::uint32_t found = find<kDim>(z, form);
+    return found != HashSlots::kNone ? found : enter(z, form);
+  }
 
   void prefetch(std::uint64_t form) const { slots_.prefetch(mix64(form)); }
 
@@ -43,6 +58,8 @@ class VertexTable {
   GrowingArray<std::int32_t> take_coordinates();
 
  private:
+  std::uint32_t enter(const std::int32_t* z, std::uint64_t form);
+
   int dim_;
   std::vector<std::uint64_t> weights_;
   GrowingArray<std::int32_t> coordinates_;

@@ -92,8 +92,10 @@ Eigen::VectorXd position(const coxeter::Triangulation& triangulation, const Disp
 }
 
 double embedding_bound(const coxeter::Quality& quality) {
-  // The closed form takes fewer than ten operations, each with a relative error of at most half an epsilon.
-  return quality.width * (1 - 8 * std::numeric_limits<double>::epsilon());
+  // The closed form takes fewer than ten operations, each with a relative error of at most half an epsilon. The
+  // rounding of Lambda changes the width by at most epsilon times its condition number, at most sqrt(d+1), times
+  // sqrt(d).
+  return quality.width * (1 - (8 + 2.0 * (quality.ambient_dim + 1)) * std::numeric_limits<double>::epsilon());
 }
 
 EmbeddingCheck check_embedding(const DisplacementMap& displacements, double bound) {

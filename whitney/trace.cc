@@ -57,14 +57,16 @@ constexpr int kMaxIntrinsicDim = 16;
 /// the vertex w = v_q + e(A); as e(0) + .. + e(d) = 0, that is v_0 - e(B) when A holds the element d, and then w is the
 /// base vertex of tau. A cofacet has a number: the splits of part 0, then those of part 1, ..; within a part, A as a set of bits
 /// over the part's elements in increasing order, less 1.
-template <class Index>
+///
+/// kDim: d when known at compile time (every loop over coordinates is then straight code: a third of the time), else 0.
+template <class Index, int kDim>
 class Tracer {
  public:
   Tracer(const Function& f, const coxeter::Triangulation& triangulation, const TraceOptions& options)
       : f_(f),
         triangulation_(triangulation),
         options_(options),
-        d_(f.ambient_dim()),
+        d_{f.ambient_dim()},
         k_(f.codim()),
         vertices_(d_),
         simplices_(d_, flag_words(d_ - k_)),
@@ -81,11 +83,13 @@ class Tracer {
     std::uint32_t* vertices;  // k + 1 of them
   };
   struct Candidate {
-    std::uint32_t part;  // q
-    std::uint32_t split; // A, bits over the elements of part q
-    std::uint32_t flag;  // number of the cofacet
-    std::uint32_t vertex;  // w
-    std::uint64_t form;
+    std::uint32_t part;     // q
+    std::uint32_t split;    // A, bits over the elements of part q
+    std::uint32_t special;  // its special half, bits over the coordinates; if d <= kMaxBitsDim
+    std::uint32_t flag;     // number of the cofacet
+    std::uint32_t vertex;   // w
+    bool new_base;          // w is the base vertex of the cofacet
+    std::uint64_t form;     // of w
   };
   // A cofacet being crossed.
   struct Step {
@@ -122,7 +126,12 @@ class Tracer {
   const Function& f_;
   const coxeter::Triangulation& triangulation_;
   const TraceOptions& options_;
-  const int d_, k_;
+  struct Dim {
+    int value;
+    constexpr operator int() const { return kDim > 0 ? kDim : value; }
+  };
+  const Dim d_;
+  const int k_;
 
   VertexTable vertices_;
   GrowingArray<double> values_;  // f, k a vertex; meaningless where outside_
@@ -148,27 +157,29 @@ class Tracer {
   Step steps_[kLanes];
   std::vector<const double*> columns_;
   std::vector<std::int32_t> z_;
+  std::vector<std::uint64_t> form_sums_;  // over the subsets of one part
+  std::vector<std::uint32_t> bit_sums_;
   std::vector<double> x_, f_values_, weights_, sums_, y_;
 };
 
-template <class Index>
-std::uint32_t* Tracer<Index>::enqueue(std::uint32_t id, std::uint64_t hash) {
+template <class Index, int kDim>
+std::uint32_t* Tracer<Index, kDim>::enqueue(std::uint32_t id, std::uint64_t hash) {
   std::uint32_t* entry = next_queue_.extend(queue_stride());
   entry[0] = id;
   std::memcpy(entry + 1, &hash, sizeof hash);
   return entry + 3;
 }
 
-template <class Index>
-typename Tracer<Index>::Pending Tracer<Index>::pending(std::size_t i) {
+template <class Index, int kDim>
+typename Tracer<Index, kDim>::Pending Tracer<Index, kDim>::pending(std::size_t i) {
   std::uint32_t* entry = queue_.data() + i * queue_stride();
   Pending simplex{entry[0], 0, entry + 3};
   std::memcpy(&simplex.hash, entry + 1, sizeof simplex.hash);
   return simplex;
 }
 
-template <class Index>
-OracleError Tracer<Index>::not_finite(int component, double value, const double* x) const {
+template <class Index, int kDim>
+OracleError Tracer<Index, kDim>::not_finite(int component, double value, const double* x) const {
   std::string at;
   char number[32];
   for (int c = 0; c < d_; ++c) {
@@ -179,8 +190,8 @@ OracleError Tracer<Index>::not_finite(int component, double value, const double*
                      " at (" + at + ")");
 }
 
-template <class Index>
-void Tracer<Index>::evaluate_new_vertices() {
+template <class Index, int kDim>
+void Tracer<Index, kDim>::evaluate_new_vertices() {
   const std::size_t known = values_.size() / k_, size = vertices_.size();
   if (known == size) return;
   const std::size_t count = size - known;
@@ -216,8 +227,8 @@ void Tracer<Index>::evaluate_new_vertices() {
 }
 
 // Lists the cofacets not yet crossed of a simplex, with the form of the vertex each adds.
-template <class Index>
-void Tracer<Index>::list_cofacets(const Pending& simplex, std::size_t slot) {
+template <class Index, int kDim>
+void Tracer<Index, kDim>::list_cofacets(const Pending& simplex, std::size_t slot) {
   const coxeter::PartLists lists = part_lists(slot);
   coxeter::list_parts(simplices_.parts(simplex.id), d_, k_, lists);
   const std::uint64_t* weights = vertices_.weights();
@@ -227,26 +238,36 @@ void Tracer<Index>::list_cofacets(const Pending& simplex, std::size_t slot) {
     if (size < 2) continue;
     const std::uint16_t* part = lists.part(q);
     const std::uint32_t whole = (std::uint32_t{1} << size) - 1;
-    const std::uint64_t form = vertices_.form(simplex.vertices[q]);
+    const bool bits_fit = d_ <= coxeter::kMaxBitsDim;
+    // Sums over all subsets of the part, each from a smaller one.
+    form_sums_[0] = vertices_.form(simplex.vertices[q]);
+    bit_sums_[0] = 0;
+    for (std::uint32_t split = 1; split <= whole; ++split) {
+      const std::uint32_t rest = split & (split - 1);
+      const std::uint16_t element = part[std::countr_zero(split)];
+      form_sums_[split] = form_sums_[rest] + weights[element];
+      if (bits_fit) bit_sums_[split] = bit_sums_[rest] | std::uint32_t{1} << element;
+    }
     std::uint32_t flag = lists.numbers[q];
     for (std::uint32_t split = 1; split < whole; ++split, ++flag) {
       if (flags[flag / 64] >> (flag % 64) & 1) continue;
-      std::uint64_t w = form;
-      for (std::uint32_t rest = split; rest != 0; rest &= rest - 1) w += weights[part[std::countr_zero(rest)]];
-      vertices_.prefetch(w);
-      candidates_.push_back({static_cast<std::uint32_t>(q), split, flag, 0, w});
+      vertices_.prefetch(form_sums_[split]);
+      candidates_.push_back({static_cast<std::uint32_t>(q), split,
+                             bits_fit ? coxeter::special_half(bit_sums_[split], bit_sums_[whole], d_) : 0, flag, 0,
+                             q == k_ && (split >> (size - 1) & 1), form_sums_[split]});
     }
   }
 }
 
 // From sigma over the cofacet to its other k-face that is hit, the one without vertex `leaving` of sigma: everything about it
 // but whether it is known.
-template <class Index>
-void Tracer<Index>::prepare(const Pending& simplex, std::size_t slot, const Candidate& candidate, int leaving, Step& step) {
+template <class Index, int kDim>
+void Tracer<Index, kDim>::prepare(const Pending& simplex, std::size_t slot, const Candidate& candidate, int leaving, Step& step) {
   step.candidate = &candidate;
   Index* out = SimplexTable<Index>::parts_of(step.key);
   step.over = coxeter::step_over_cofacet(simplices_.parts(simplex.id), part_lists(slot), d_, k_,
-                                         static_cast<int>(candidate.part), candidate.split, leaving, out);
+                                         static_cast<int>(candidate.part), candidate.split, candidate.special, leaving,
+                                         out);
   const std::uint32_t* v = simplex.vertices;
   std::uint32_t base = step.over.inserted == 0 ? candidate.vertex : v[0];
   if (step.over.removed == 0) base = step.over.inserted == 1 ? candidate.vertex : v[1];
@@ -255,8 +276,8 @@ void Tracer<Index>::prepare(const Pending& simplex, std::size_t slot, const Cand
   simplices_.prefetch(step.hash);
 }
 
-template <class Index>
-void Tracer<Index>::take(const Pending& simplex, const Step& step) {
+template <class Index, int kDim>
+void Tracer<Index, kDim>::take(const Pending& simplex, const Step& step) {
   const std::size_t known = simplices_.size();
   const std::uint32_t id = simplices_.intern(step.key, step.hash);
   if (id == known) {
@@ -272,8 +293,8 @@ void Tracer<Index>::take(const Pending& simplex, const Step& step) {
 }
 
 // x = b + Lambda (sum_q lambda_q v_q), where coordinate c of the sum is v_0[c] plus the weights of the vertices after its part.
-template <class Index>
-void Tracer<Index>::report_point(const Pending& simplex, int lane) {
+template <class Index, int kDim>
+void Tracer<Index, kDim>::report_point(const Pending& simplex, int lane) {
   if (kernel_.reliable(lane)) {
     for (int q = 0; q <= k_; ++q) weights_[q] = std::max(kernel_.weight(lane, q), 0.0);
   } else {
@@ -287,7 +308,8 @@ void Tracer<Index>::report_point(const Pending& simplex, int lane) {
   }
   const Index* parts = simplices_.parts(simplex.id);
   const std::int32_t* base = vertices_.coordinates(simplex.vertices[0]);
-  for (int c = 0; c < d_; ++c) y_[c] = base[c] + sums_[parts[c]] / total;
+  for (int q = 0; q <= k_; ++q) sums_[q] /= total;
+  for (int c = 0; c < d_; ++c) y_[c] = base[c] + sums_[parts[c]];
   double* x = &points_[std::size_t{simplex.id} * d_];
   const Eigen::MatrixXd& linear = triangulation_.linear();
   for (int r = 0; r < d_; ++r) x[r] = triangulation_.offset()[r];
@@ -298,8 +320,8 @@ void Tracer<Index>::report_point(const Pending& simplex, int lane) {
   }
 }
 
-template <class Index>
-void Tracer<Index>::process(std::size_t first, std::size_t count) {
+template <class Index, int kDim>
+void Tracer<Index, kDim>::process(std::size_t first, std::size_t count) {
   candidates_.clear();
   candidate_begin_.clear();
   for (std::size_t i = 0; i < count; ++i) {
@@ -313,16 +335,19 @@ void Tracer<Index>::process(std::size_t first, std::size_t count) {
     const coxeter::PartLists lists = part_lists(i);
     for (std::size_t j = candidate_begin_[i]; j < candidate_begin_[i + 1]; ++j) {
       Candidate& candidate = candidates_[j];
-      const std::uint16_t* part = lists.part(static_cast<int>(candidate.part));
-      std::memcpy(z_.data(), vertices_.coordinates(simplex.vertices[candidate.part]), d_ * sizeof(std::int32_t));
-      for (std::uint32_t rest = candidate.split; rest != 0; rest &= rest - 1) {
-        const int c = part[std::countr_zero(rest)];
-        if (c < d_)
-          ++z_[c];
-        else
-          for (int i = 0; i < d_; ++i) --z_[i];
+      // w = v_q + e(A), or v_0 - e(B) if that is below v_0.
+      const std::int32_t* z = vertices_.coordinates(simplex.vertices[candidate.new_base ? 0 : candidate.part]);
+      const std::int32_t step = candidate.new_base ? -1 : 1;
+      if (d_ <= coxeter::kMaxBitsDim) {
+        for (int c = 0; c < d_; ++c) z_[c] = z[c] + step * static_cast<std::int32_t>(candidate.special >> c & 1);
+      } else {
+        std::copy_n(z, int{d_}, z_.begin());
+        const std::uint16_t* part = lists.part(static_cast<int>(candidate.part));
+        std::uint32_t half = candidate.split;
+        if (candidate.new_base) half = ~half & ((std::uint32_t{1} << lists.size(static_cast<int>(candidate.part))) - 1);
+        for (; half != 0; half &= half - 1) z_[part[std::countr_zero(half)]] += step;
       }
-      candidate.vertex = vertices_.intern(z_.data(), candidate.form);
+      candidate.vertex = vertices_.template intern<kDim>(z_.data(), candidate.form);
     }
   }
   evaluate_new_vertices();
@@ -379,8 +404,8 @@ void Tracer<Index>::process(std::size_t first, std::size_t count) {
 }
 
 // The first simplex of a trace. False when it is known already.
-template <class Index>
-bool Tracer<Index>::start_from(const Crossing& crossing) {
+template <class Index, int kDim>
+bool Tracer<Index, kDim>::start_from(const Crossing& crossing) {
   std::vector<std::int32_t> z = crossing.base;
   std::vector<std::uint32_t> ids(k_ + 1);
   std::uint64_t hash = 0;
@@ -402,8 +427,8 @@ bool Tracer<Index>::start_from(const Crossing& crossing) {
   return true;
 }
 
-template <class Index>
-bool Tracer<Index>::should_stop() {
+template <class Index, int kDim>
+bool Tracer<Index, kDim>::should_stop() {
   const double now = seconds();
   if (simplices_.size() >= options_.max_simplices)
     stop_ = StopReason::kMaxSimplices;
@@ -415,8 +440,8 @@ bool Tracer<Index>::should_stop() {
 }
 
 // Breadth first until nothing is left, or a limit. Points of simplices still waiting at a limit are filled in as well.
-template <class Index>
-bool Tracer<Index>::grow() {
+template <class Index, int kDim>
+bool Tracer<Index, kDim>::grow() {
   while (!next_queue_.empty()) {
     queue_.swap(next_queue_);
     next_queue_.clear();
@@ -442,14 +467,16 @@ bool Tracer<Index>::grow() {
   return true;
 }
 
-template <class Index>
-TraceResult Tracer<Index>::run(std::span<const double> seed_points) {
+template <class Index, int kDim>
+TraceResult Tracer<Index, kDim>::run(std::span<const double> seed_points) {
   elements_.resize(kBatch * (d_ + 1));
   starts_.resize(kBatch * (k_ + 2));
   numbers_.resize(kBatch * (k_ + 2));
   const std::size_t key_room = simplices_.key_words() + coxeter::kStepSlack * sizeof(Index) / 8 + 2;
   keys_.assign(kLanes * key_room, 0);
   for (int lane = 0; lane < kLanes; ++lane) steps_[lane].key = &keys_[lane * key_room];
+  form_sums_.resize(std::size_t{2} << (d_ - k_));
+  bit_sums_.resize(std::size_t{2} << (d_ - k_));
   z_.resize(d_);
   weights_.resize(k_ + 1);
   sums_.resize(k_ + 1);
@@ -488,8 +515,8 @@ TraceResult Tracer<Index>::run(std::span<const double> seed_points) {
 }
 
 // Puts everything into canonical order.
-template <class Index>
-TraceResult Tracer<Index>::result() {
+template <class Index, int kDim>
+TraceResult Tracer<Index, kDim>::result() {
   TraceResult out;
   out.ambient_dim_ = d_;
   out.codim_ = k_;
@@ -561,8 +588,18 @@ void check_arguments(const Function& f, const coxeter::Triangulation& triangulat
 TraceResult trace(const Function& f, const coxeter::Triangulation& triangulation, std::span<const double> seed_points,
                   const TraceOptions& options) {
   check_arguments(f, triangulation, seed_points, options);
-  if (f.codim() < TraceResult::kFirstWideCodim) return Tracer<std::uint8_t>(f, triangulation, options).run(seed_points);
-  return Tracer<std::uint16_t>(f, triangulation, options).run(seed_points);
+  auto run = [&]<class Index, int kDim>() { return Tracer<Index, kDim>(f, triangulation, options).run(seed_points); };
+  if (f.codim() >= TraceResult::kFirstWideCodim) return run.template operator()<std::uint16_t, 0>();
+  switch (f.ambient_dim()) {
+    case 3:
+      return run.template operator()<std::uint8_t, 3>();
+    case 4:
+      return run.template operator()<std::uint8_t, 4>();
+    case 6:
+      return run.template operator()<std::uint8_t, 6>();
+    default:
+      return run.template operator()<std::uint8_t, 0>();
+  }
 }
 
 }  // namespace whitney

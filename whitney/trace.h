@@ -110,7 +110,7 @@ class TraceResult {
   double seconds = 0;
 
  private:
-  template <class Index>
+  template <class Index, int kDim>
   friend class Tracer;
 
   int ambient_dim_ = 0, codim_ = 0;
