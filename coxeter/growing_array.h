@@ -2,19 +2,25 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdlib>
 #include <cstring>
-#include <new>
 #include <span>
 #include <type_traits>
 #include <utility>
 
 namespace whitney::coxeter {
 
-/// A contiguous array of trivially copyable values that grows by realloc.
+namespace detail {
+
+/// realloc for blocks whose size the caller knows. Large blocks come from the system page by page and grow by remapping where the
+/// system can. bytes = 0 frees. Throws std::bad_alloc.
+void* resize_block(void* block, std::size_t old_bytes, std::size_t bytes);
+
+}  // namespace detail
+
+/// A contiguous array of trivially copyable values that grows in place of being copied.
 ///
-/// Why not std::vector: the C library moves large blocks by remapping pages, so growing neither copies nor holds two
-/// copies at once, and pages never touched cost nothing. Peak memory is what is stored.
+/// Why not std::vector: growing a large block neither copies nor holds two copies at once, and pages never touched cost
+/// nothing. Peak memory is what is stored.
 template <class T>
 class GrowingArray {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -31,7 +37,7 @@ class GrowingArray {
     GrowingArray(other).swap(*this);
     return *this;
   }
-  ~GrowingArray() { std::free(data_); }
+  ~GrowingArray() { detail::resize_block(data_, capacity_ * sizeof(T), 0); }
 
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
@@ -69,9 +75,7 @@ class GrowingArray {
 
   void reserve(std::size_t capacity) {
     if (capacity <= capacity_) return;
-    void* moved = std::realloc(data_, capacity * sizeof(T));
-    if (moved == nullptr) throw std::bad_alloc();
-    data_ = static_cast<T*>(moved);
+    data_ = static_cast<T*>(detail::resize_block(data_, capacity_ * sizeof(T), capacity * sizeof(T)));
     capacity_ = capacity;
   }
 
