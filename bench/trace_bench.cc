@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The tracer beside GUDHI's Coxeter_triangulation, in one run: the same function, the same triangulation, one thread, runs
-// interleaved, answers compared. CPU seconds; ratios are ratios of medians. Without libgudhi-dev only our side runs.
+// The tracer beside GUDHI's Coxeter_triangulation, in one run: the same function, the same triangulation, one thread,
+// runs interleaved, answers compared. CPU seconds; ratios are ratios of medians. Without libgudhi-dev only our side
+// runs.
 //
 //   trace_bench [--runs R] [--peer-runs P] [case ...]      cases: s2r3 t2r4 s3r6 t2r8 t2r10 t2r10fine
 #include <coxeter/triangulation.h>
@@ -151,7 +152,8 @@ double status_bytes(const char* key) {
   return kilobytes * 1024;
 }
 
-/// How far the peak of resident memory lies above what was resident before `work`, after `before`; in a child process of its own.
+/// How far the peak of resident memory lies above what was resident before `work`, after `before`; in a child process
+/// of its own.
 double peak_growth(const std::function<void()>& before, const std::function<void()>& work) {
   int ends[2];
   if (pipe(ends) != 0) return 0;
@@ -184,9 +186,10 @@ struct Case {
   double edge_length;
 };
 
-constexpr Case kCases[] = {{"s2r3", "S^2 in R^3, .02", false, 2, 3, 0.02},   {"t2r4", "T^2 in R^4, .15", true, 2, 4, 0.15},
-                           {"s3r6", "S^3 in R^6, .5", false, 3, 6, 0.5},     {"t2r8", "T^2 in R^8, .4", true, 2, 8, 0.4},
-                           {"t2r10", "T^2 in R^10, .46", true, 2, 10, 0.46}, {"t2r10fine", "T^2 in R^10, .23", true, 2, 10, 0.23}};
+constexpr Case kCases[] = {
+    {"s2r3", "S^2 in R^3, .02", false, 2, 3, 0.02},   {"t2r4", "T^2 in R^4, .15", true, 2, 4, 0.15},
+    {"s3r6", "S^3 in R^6, .5", false, 3, 6, 0.5},     {"t2r8", "T^2 in R^8, .4", true, 2, 8, 0.4},
+    {"t2r10", "T^2 in R^10, .46", true, 2, 10, 0.46}, {"t2r10fine", "T^2 in R^10, .23", true, 2, 10, 0.23}};
 
 void run(const Case& c, int runs, int peer_runs) {
   const auto manifold = std::make_shared<Manifold>(c.torus, c.n, c.d);
@@ -223,8 +226,8 @@ void run(const Case& c, int runs, int peer_runs) {
     traced_there.reset();
   };
   const double growth = peak_growth([] {}, trace_it);
-  std::printf("%-18s %8zu %9.4f %7.3f %9zu %9zu %6.0f", c.title, simplices, median(ours), median(ours) / double(simplices) * 1e6,
-              evaluations, vertices, growth / double(simplices));
+  std::printf("%-18s %8zu %9.4f %7.3f %9zu %9zu %6.0f", c.title, simplices, median(ours),
+              median(ours) / double(simplices) * 1e6, evaluations, vertices, growth / double(simplices));
   if (!theirs.empty())
     std::printf(" %9.2f %11zu %7.0fx  %s", median(theirs), peer_evaluations, median(theirs) / median(ours),
                 peer_simplices == simplices ? "same count" : "COUNTS DIFFER");
@@ -241,16 +244,19 @@ void run(const Case& c, int runs, int peer_runs) {
   start = cpu_seconds();
   const std::size_t pulled = whitney::pulled_subdivision(complex).num_simplices();
   const double pulled_seconds = cpu_seconds() - start;
-  const double pulled_growth = peak_growth(trace_and_complex, [&] { (void)whitney::pulled_subdivision(*complex_there); });
+  const double pulled_growth =
+      peak_growth(trace_and_complex, [&] { (void)whitney::pulled_subdivision(*complex_there); });
   start = cpu_seconds();
   const std::size_t barycentric = whitney::barycentric_subdivision(complex).num_simplices();
   const double barycentric_seconds = cpu_seconds() - start;
-  const double barycentric_growth = peak_growth(trace_and_complex, [&] { (void)whitney::barycentric_subdivision(*complex_there); });
-  std::printf("    cells %zu: Hasse diagram %.3f us, %.0f bytes a cell; pulled %.3f us, %.0f bytes a simplex (%zu);"
-              " barycentric %.3f us, %.0f bytes a simplex (%zu)\n",
-              cells, complex_seconds / double(cells) * 1e6, complex_growth / double(cells),
-              pulled_seconds / double(pulled) * 1e6, pulled_growth / double(pulled), pulled,
-              barycentric_seconds / double(barycentric) * 1e6, barycentric_growth / double(barycentric), barycentric);
+  const double barycentric_growth =
+      peak_growth(trace_and_complex, [&] { (void)whitney::barycentric_subdivision(*complex_there); });
+  std::printf(
+      "    cells %zu: Hasse diagram %.3f us, %.0f bytes a cell; pulled %.3f us, %.0f bytes a simplex (%zu);"
+      " barycentric %.3f us, %.0f bytes a simplex (%zu)\n",
+      cells, complex_seconds / double(cells) * 1e6, complex_growth / double(cells),
+      pulled_seconds / double(pulled) * 1e6, pulled_growth / double(pulled), pulled,
+      barycentric_seconds / double(barycentric) * 1e6, barycentric_growth / double(barycentric), barycentric);
   std::fflush(stdout);
 }
 
@@ -268,8 +274,8 @@ int main(int argc, char** argv) {
     else
       wanted.push_back(word);
   }
-  std::printf("%-18s %8s %9s %7s %9s %9s %6s %9s %11s %8s\n", "case", "simplices", "seconds", "us/s.", "f evals", "vertices",
-              "B/s.", "peer s", "peer evals", "ratio");
+  std::printf("%-18s %8s %9s %7s %9s %9s %6s %9s %11s %8s\n", "case", "simplices", "seconds", "us/s.", "f evals",
+              "vertices", "B/s.", "peer s", "peer evals", "ratio");
   for (const Case& c : kCases) {
     const bool fine = std::string(c.name) == "t2r10fine";
     const bool chosen = wanted.empty() ? !fine : std::find(wanted.begin(), wanted.end(), c.name) != wanted.end();

@@ -14,9 +14,9 @@ namespace whitney::coxeter {
 
 /// The parts of a simplex as lists, made once for all its cofacets.
 ///
-/// A cofacet arises when part q is split into two non-empty ordered halves A before B. Cofacets have numbers: the splits of part 0,
-/// then those of part 1, and so on; within a part with s elements, A as a set of bits over the elements in increasing order, less 1
-/// (2^s - 2 splits). So a set of flags, one per cofacet, belongs to a simplex.
+/// A cofacet arises when part q is split into two non-empty ordered halves A before B. Cofacets have numbers: the
+/// splits of part 0, then those of part 1, and so on; within a part with s elements, A as a set of bits over the
+/// elements in increasing order, less 1 (2^s - 2 splits). So a set of flags, one per cofacet, belongs to a simplex.
 struct PartLists {
   std::uint16_t* elements;  ///< d + 1: all of {0..d}, part after part, increasing inside a part
   std::uint16_t* starts;    ///< k + 2: part q is elements[starts[q]] .. elements[starts[q+1]-1]
@@ -32,9 +32,10 @@ inline std::uint32_t num_splits(int size) { return (std::uint32_t{1} << size) - 
 /// Up to this ambient dimension sets of coordinates travel as bits.
 inline constexpr int kMaxBitsDim = 31;
 
-/// The half of a split whose coordinates do not move up by one with the rest, as bits over the coordinates 0..d-1, given those of
-/// the first half A (`first`, element d as bit d) and of the whole part. When A holds element d, the vertex added is
-/// w = v_0 - e(B), the new base vertex, and B becomes part 0; otherwise w = v_q + e(A), and A keeps the number q.
+/// The half of a split whose coordinates do not move up by one with the rest, as bits over the coordinates 0..d-1,
+/// given those of the first half A (`first`, element d as bit d) and of the whole part. When A holds element d, the
+/// vertex added is w = v_0 - e(B), the new base vertex, and B becomes part 0; otherwise w = v_q + e(A), and A keeps the
+/// number q.
 inline std::uint32_t special_half(std::uint32_t first, std::uint32_t whole, int d) {
   const std::uint32_t top = std::uint32_t{1} << d;
   return first & top ? whole & ~first : first & ~top;
@@ -117,7 +118,8 @@ std::uint32_t step_parts_short(const Index* parts, int d, int k, std::uint32_t s
 #else
   std::uint32_t split = 0;
   int bit = 0;
-  for (std::uint32_t rest = in_merged; rest != 0; rest &= rest - 1) split |= (in_half >> std::countr_zero(rest) & 1) << bit++;
+  for (std::uint32_t rest = in_merged; rest != 0; rest &= rest - 1)
+    split |= (in_half >> std::countr_zero(rest) & 1) << bit++;
 #endif
   if (merged == k && half == k + 1) split |= std::uint32_t{1} << std::popcount(in_merged);
   return split;
@@ -125,8 +127,8 @@ std::uint32_t step_parts_short(const Index* parts, int d, int k, std::uint32_t s
 #endif
 
 template <class Index>
-std::uint32_t step_parts(const Index* parts, int d, int k, const std::uint16_t* part, std::uint32_t special, bool new_base,
-                         int q, int removed, int merged, int half, Index* out) {
+std::uint32_t step_parts(const Index* parts, int d, int k, const std::uint16_t* part, std::uint32_t special,
+                         bool new_base, int q, int removed, int merged, int half, Index* out) {
   // First tau in `out`, then sigma'.
   for (int c = 0; c < d; ++c) out[c] = static_cast<Index>(parts[c] + (new_base || parts[c] >= q));
   for (std::uint32_t rest = special; rest != 0; rest &= rest - 1)
@@ -145,11 +147,12 @@ std::uint32_t step_parts(const Index* parts, int d, int k, const std::uint16_t* 
 
 }  // namespace detail
 
-/// How many Index values beyond the d that are written step_over_cofacet may read after `parts` and write (zeros) after `out`.
+/// How many Index values beyond the d that are written step_over_cofacet may read after `parts` and write (zeros) after
+/// `out`.
 inline constexpr int kStepSlack = 16;
 
-/// From sigma (part numbers `parts`, lists of them) over the cofacet that splits part q by `split` to the face without vertex
-/// `leaving` of sigma (0..k): writes the part numbers of sigma' to `out`, which may not overlap `parts`.
+/// From sigma (part numbers `parts`, lists of them) over the cofacet that splits part q by `split` to the face without
+/// vertex `leaving` of sigma (0..k): writes the part numbers of sigma' to `out`, which may not overlap `parts`.
 /// special: the special_half() of the split; read only if d <= 16.
 template <class Index>
 CofacetStep step_over_cofacet(const Index* parts, const PartLists& lists, int d, int k, int q, std::uint32_t split,
@@ -158,7 +161,8 @@ CofacetStep step_over_cofacet(const Index* parts, const PartLists& lists, int d,
   const bool new_base = q == k && (split >> (size - 1) & 1);
   const int inserted = new_base ? 0 : q + 1;
   const int removed = leaving < inserted ? leaving : leaving + 1;
-  // Without its vertex number `removed`, parts removed-1 and removed of tau become one; without the base, part 0 joins the last.
+  // Without its vertex number `removed`, parts removed-1 and removed of tau become one; without the base, part 0 joins
+  // the last.
   const int merged = removed == 0 ? k : removed - 1;
   const int half = removed == 0 ? k + 1 : removed - 1;
 

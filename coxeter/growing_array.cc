@@ -37,8 +37,8 @@ void* resize_block(void* block, std::size_t old_bytes, std::size_t bytes) {
     if (moved == MAP_FAILED) throw std::bad_alloc();
     return moved;
   }
-  void* moved = is_large ? mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0)
-                         : std::malloc(bytes);
+  void* moved =
+      is_large ? mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0) : std::malloc(bytes);
   if (moved == nullptr || moved == MAP_FAILED) throw std::bad_alloc();
   if (block != nullptr) std::memcpy(moved, block, std::min(old_bytes, bytes));
   resize_block(block, old_bytes, 0);

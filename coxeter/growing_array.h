@@ -11,8 +11,8 @@ namespace whitney::coxeter {
 
 namespace detail {
 
-/// realloc for blocks whose size the caller knows. Large blocks come from the system page by page and grow by remapping where the
-/// system can. bytes = 0 frees. Throws std::bad_alloc.
+/// realloc for blocks whose size the caller knows. Large blocks come from the system page by page and grow by remapping
+/// where the system can. bytes = 0 frees. Throws std::bad_alloc.
 void* resize_block(void* block, std::size_t old_bytes, std::size_t bytes);
 
 }  // namespace detail

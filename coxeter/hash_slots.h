@@ -16,8 +16,8 @@ inline std::uint64_t mix64(std::uint64_t x) {
 }
 
 /// Open addressing with linear probing and a load of at most 1/2: maps the hash of a key to the index of its record in
-/// an append-only store. Keys stay in that store; a slot holds 32 bits of the hash and the index. The position of a slot
-/// comes from those same 32 bits, so growing never touches the keys.
+/// an append-only store. Keys stay in that store; a slot holds 32 bits of the hash and the index. The position of a
+/// slot comes from those same 32 bits, so growing never touches the keys.
 class HashSlots {
  public:
   static constexpr std::uint32_t kNone = 0xffffffff;

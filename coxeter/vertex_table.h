@@ -14,8 +14,8 @@ namespace whitney::coxeter {
 /// Lattice vertices, each stored once and known by its index (order of first appearance).
 ///
 /// The hash of z is mix64 of a linear form z -> sum_i weight_i z_i mod 2^64 with fixed odd weights, and
-/// weight_d = -(weight_0 + .. + weight_{d-1}). So the form of z + e(U) is the form of z plus the sum of the weights over
-/// U, also when U contains d: neighbours are looked up without a pass over their coordinates.
+/// weight_d = -(weight_0 + .. + weight_{d-1}). So the form of z + e(U) is the form of z plus the sum of the weights
+/// over U, also when U contains d: neighbours are looked up without a pass over their coordinates.
 class VertexTable {
  public:
   explicit VertexTable(int ambient_dim);

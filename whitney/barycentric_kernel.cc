@@ -49,9 +49,9 @@ struct BarycentricKernel::Impl {
     return static_cast<Lanes*>(__builtin_assume_aligned(static_cast<void*>(buffer.data()), 64));
   }
 
-  // In-place Gauss-Jordan on A, rows exchanged where needed; the exchanges are undone on the columns at the end. Candidates for
-  // a pivot are compared relative to the size of their rows of B (`weight` is the reciprocal), so that the units of the components of
-  // f do not matter.
+  // In-place Gauss-Jordan on A, rows exchanged where needed; the exchanges are undone on the columns at the end.
+  // Candidates for a pivot are compared relative to the size of their rows of B (`weight` is the reciprocal), so that
+  // the units of the components of f do not matter.
   static void invert(Lanes* A, Lanes* weight, int n) {
     struct Exchange {
       int c, r;
@@ -230,7 +230,8 @@ BarycentricKernel::BarycentricKernel(int codim)
   pivot_ = &Impl<0>::pivot;
   [&]<int... kSizes>(std::integer_sequence<int, kSizes...>) {
     ((size_ == kSizes + 2 ? (factor_ = &Impl<kSizes + 2>::factor, pivot_ = &Impl<kSizes + 2>::pivot, 0) : 0), ...);
-  }(std::make_integer_sequence<int, kLargest - 1>{});
+  }
+  (std::make_integer_sequence<int, kLargest - 1>{});
 }
 
 }  // namespace whitney

@@ -10,15 +10,17 @@ namespace whitney {
 /// The linear algebra of the tracer, for kLanes k-simplices side by side (one SIMD lane each).
 ///
 /// Notation: for a k-simplex with vertices v_0..v_k, B is the (k+1) x (k+1) matrix with columns (1, f(v_q)); M = B^-1;
-/// lambda = first column of M = barycentric coordinates of the point where the interpolant vanishes. For one more vertex
-/// w of a cofacet, y = M (1, f(w)), and the other k-face of the cofacet that meets the zero set is the one without the
-/// vertex r that minimises lambda_r / y_r over y_r > 0 (SoCG 2021, Algorithm 1; the ratio test of linear programming).
+/// lambda = first column of M = barycentric coordinates of the point where the interpolant vanishes. For one more
+/// vertex w of a cofacet, y = M (1, f(w)), and the other k-face of the cofacet that meets the zero set is the one
+/// without the vertex r that minimises lambda_r / y_r over y_r > 0 (SoCG 2021, Algorithm 1; the ratio test of linear
+/// programming).
 ///
-/// Every decision is proven or declared undecided. With the computed inverse M~ and R = I - M~ B, norm_inf(R) = rho < 1:
+/// Every decision is proven or declared undecided. With the computed inverse M~ and R = I - M~ B, norm_inf(R) = rho <
+/// 1:
 ///   M = (I - R)^-1 M~, hence |M - M~|_ij <= rho/(1-rho) max_s |M~_sj|,
 /// and R itself is computed with its rounding error bounded by gamma |M~||B| (gamma = a small multiple of u (k+2)).
-/// So neither the algorithm that found M~ nor its order of operations matters to correctness. Multiplying a component of
-/// f by a power of two changes no result.
+/// So neither the algorithm that found M~ nor its order of operations matters to correctness. Multiplying a component
+/// of f by a power of two changes no result.
 ///
 /// Results are a function of the simplex alone, not of its lane or of its neighbours in the batch.
 class BarycentricKernel {
@@ -61,18 +63,18 @@ class BarycentricKernel {
   template <class T>
   struct AlignedAllocator {
     using value_type = T;
-    T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), std::align_val_t{64})); }
-    void deallocate(T* p, std::size_t) { ::operator delete(p, std::align_val_t{64}); }
+    T* allocate(std::size_t n) { return static_cast<T*>(::operator new (n * sizeof(T), std::align_val_t{64})); }
+    void deallocate(T* p, std::size_t) { ::operator delete (p, std::align_val_t{64}); }
     bool operator==(const AlignedAllocator&) const { return true; }
   };
   using Buffer = std::vector<double, AlignedAllocator<double>>;
 
-  int size_;            // k + 1
-  Buffer matrix_;       // B, then scratch: [row][column][lane]
-  Buffer inverse_;      // M~, same layout
-  Buffer candidate_;    // (1, f(w)): [row][lane]
-  Buffer column_max_;   // max_s |M~_sj|: [column j][lane]
-  Buffer solution_;     // y: [row][lane]
+  int size_;           // k + 1
+  Buffer matrix_;      // B, then scratch: [row][column][lane]
+  Buffer inverse_;     // M~, same layout
+  Buffer candidate_;   // (1, f(w)): [row][lane]
+  Buffer column_max_;  // max_s |M~_sj|: [column j][lane]
+  Buffer solution_;    // y: [row][lane]
   double weight_error_[kLanes] = {};
   double inverse_error_[kLanes] = {};  // rho / (1 - rho)
   bool reliable_[kLanes] = {};

@@ -56,8 +56,8 @@ class Cofacets {
  public:
   Cofacets(int dim, const VertexTable& vertices) : d_(dim), vertices_(vertices) {}
 
-  /// The cofacets of a level in canonical order, and the incidence: the cofacets of every simplex of the level, by their new indices.
-  /// A cofacet whose base vertex is not in the table is skipped: a stopped trace never looked at it.
+  /// The cofacets of a level in canonical order, and the incidence: the cofacets of every simplex of the level, by
+  /// their new indices. A cofacet whose base vertex is not in the table is skipped: a stopped trace never looked at it.
   std::pair<Level<Index>, Incidence> of(const Level<Index>& level, int num_parts) {
     SimplexTable<Index> table(d_, 0);
     Incidence around;
@@ -84,8 +84,8 @@ class Cofacets {
         if (size < 2) continue;
         const std::uint32_t all = (std::uint32_t{1} << size) - 1;
         const bool last = q == num_parts - 1;
-        // Elements of part q get q (first half) or q + 1; in the last part with element d in the first half, the second half
-        // becomes part 0 of a new base vertex and everything else moves up.
+        // Elements of part q get q (first half) or q + 1; in the last part with element d in the first half, the second
+        // half becomes part 0 of a new base vertex and everything else moves up.
         for (std::uint32_t split = 1; split < all; ++split) {
           const bool new_base = last && (split >> (size - 1) & 1);
           std::uint32_t base = level.base[i];
@@ -162,8 +162,8 @@ void rename(Incidence& incidence, const std::vector<std::uint32_t>& renamed) {
   for (std::uint32_t& i : incidence.index) i = renamed[i];
 }
 
-/// Whether the facets found of a cell are all it has. An edge has two ends. The boundary of a polytope of dimension 2 or more is a
-/// sphere, which is connected: if some but not all facets are there, some ridge is in only one of them.
+/// Whether the facets found of a cell are all it has. An edge has two ends. The boundary of a polytope of dimension 2
+/// or more is a sphere, which is connected: if some but not all facets are there, some ridge is in only one of them.
 bool is_complete(std::span<const std::uint32_t> cell_facets, int cell_dim, const Incidence& ridges) {
   if (cell_dim == 1) return cell_facets.size() == 2;
   std::vector<std::uint32_t> all;
@@ -250,7 +250,8 @@ coxeter::Simplex CellComplex::simplex(int j, std::size_t i) const {
   std::vector<std::uint16_t> part_indices(first, first + ambient_dim);
   // Element d is in the last part: alone there, or with the coordinates of the highest number. The dimension tells.
   part_indices.push_back(static_cast<std::uint16_t>(ambient_dim - intrinsic_dim + j));
-  return {coxeter::LatticeVertex(std::span(z, std::size_t(ambient_dim))), coxeter::OrderedPartition::from_part_indices(part_indices)};
+  return {coxeter::LatticeVertex(std::span(z, std::size_t(ambient_dim))),
+          coxeter::OrderedPartition::from_part_indices(part_indices)};
 }
 
 CellComplex cell_complex(const TraceResult& trace) {

@@ -25,37 +25,40 @@ struct Incidence {
 
 /// The simplices of the triangulation that carry the cells of one dimension.
 struct CarrierSimplices {
-  std::vector<std::uint32_t> base;   ///< index of the base vertex among CellComplex::vertex_coordinates
-  std::vector<std::uint16_t> parts;  ///< num_cells x d: the part (0..m) that each coordinate 0..d-1 is in; m the dimension of the simplex
+  std::vector<std::uint32_t> base;  ///< index of the base vertex among CellComplex::vertex_coordinates
+  std::vector<std::uint16_t>
+      parts;  ///< num_cells x d: the part (0..m) that each coordinate 0..d-1 is in; m the dimension of the simplex
 };
 
 /// The piecewise-linear isomanifold as a complex of convex polytopes, with its Hasse diagram.
 ///
-/// A j-cell is the intersection of a (k+j)-simplex of the triangulation with the zero set of the interpolant: a simple polytope with
-/// interior points in the simplex's interior, so faces of cells are the cells of faces of simplices. The complex is a strongly regular CW complex, and
-/// without a boundary when the trace ran to its end. Cells of each dimension are in the canonical order of their simplices.
+/// A j-cell is the intersection of a (k+j)-simplex of the triangulation with the zero set of the interpolant: a simple
+/// polytope with interior points in the simplex's interior, so faces of cells are the cells of faces of simplices. The
+/// complex is a strongly regular CW complex, and without a boundary when the trace ran to its end. Cells of each
+/// dimension are in the canonical order of their simplices.
 ///
-/// Where f vanishes at lattice vertices, cells are those of f = (eps, .., eps^k) for an infinitely small eps: the combinatorics are those
-/// of a manifold, while the points of several 0-cells may coincide.
+/// Where f vanishes at lattice vertices, cells are those of f = (eps, .., eps^k) for an infinitely small eps: the
+/// combinatorics are those of a manifold, while the points of several 0-cells may coincide.
 struct CellComplex {
-  int ambient_dim = 0;                             ///< d
-  int intrinsic_dim = 0;                           ///< n
-  std::vector<Incidence> facets;                   ///< facets[j], 0 <= j <= n: the (j-1)-faces of every j-cell; empty lists for j = 0
-  std::vector<Incidence> cofacets;                 ///< cofacets[j]: the (j+1)-cells around every j-cell; empty lists for j = n
-  std::vector<double> points;                      ///< num_cells(0) x d: the 0-cells
-  std::vector<CarrierSimplices> simplices;         ///< simplices[j]: the (k+j)-simplex of every j-cell
-  std::vector<std::int32_t> vertex_coordinates;    ///< lattice vertices that base indices refer to, num x d
-  std::size_t num_dropped = 0;                     ///< cells that a stopped trace left incomplete, or that bound no n-cell
+  int ambient_dim = 0;              ///< d
+  int intrinsic_dim = 0;            ///< n
+  std::vector<Incidence> facets;    ///< facets[j], 0 <= j <= n: the (j-1)-faces of every j-cell; empty lists for j = 0
+  std::vector<Incidence> cofacets;  ///< cofacets[j]: the (j+1)-cells around every j-cell; empty lists for j = n
+  std::vector<double> points;       ///< num_cells(0) x d: the 0-cells
+  std::vector<CarrierSimplices> simplices;       ///< simplices[j]: the (k+j)-simplex of every j-cell
+  std::vector<std::int32_t> vertex_coordinates;  ///< lattice vertices that base indices refer to, num x d
+  std::size_t num_dropped = 0;  ///< cells that a stopped trace left incomplete, or that bound no n-cell
 
   std::size_t num_cells(int dim) const { return facets[dim].size(); }
   /// The (k+j)-simplex of the triangulation that carries cell i of dimension j.
   coxeter::Simplex simplex(int j, std::size_t i) const;
 };
 
-/// Builds the cell complex of a trace: every coface of a simplex that is hit is hit, so the (j+1)-cells are the cofacets of the j-cells.
+/// Builds the cell complex of a trace: every coface of a simplex that is hit is hit, so the (j+1)-cells are the
+/// cofacets of the j-cells.
 ///
-/// When the trace was stopped or cut by its box, cells of which a face is missing are left out, then those that are faces of no n-cell.
-/// Throws InvalidInput when there are more than 2^32 - 2 cells or incidences of one dimension.
+/// When the trace was stopped or cut by its box, cells of which a face is missing are left out, then those that are
+/// faces of no n-cell. Throws InvalidInput when there are more than 2^32 - 2 cells or incidences of one dimension.
 CellComplex cell_complex(const TraceResult& trace);
 
 }  // namespace whitney

@@ -13,8 +13,8 @@ namespace {
 
 using Integer = mpz_class;
 
-// The system B X = Y in integers: each row is multiplied by a power of two that makes it integral (rows of B and Y alike,
-// so X does not change), then solved by Jordan's elimination with exact divisions (Bareiss).
+// The system B X = Y in integers: each row is multiplied by a power of two that makes it integral (rows of B and Y
+// alike, so X does not change), then solved by Jordan's elimination with exact divisions (Bareiss).
 class ExactSystem {
  public:
   enum class RightSide { kUnit, kUnitAndVertex, kInverse, kInverseAndVertex };

@@ -9,9 +9,9 @@ namespace whitney {
 /// Exact decisions of the tracer, for when rounding errors could change them (see barycentric_kernel.h).
 ///
 /// The target is not 0 but (eps, eps^2, .., eps^k) for an infinitely small eps > 0: B lambda = (1, eps, .., eps^k), so
-/// "lambda_r > 0" means that row r of M = B^-1 is lexicographically positive. Every decision below is that of one generic
-/// map, so decisions about different simplices never contradict each other, and no vertex is moved.
-/// Values are taken as the exact rationals that doubles are; the arithmetic is in integers, fraction-free.
+/// "lambda_r > 0" means that row r of M = B^-1 is lexicographically positive. Every decision below is that of one
+/// generic map, so decisions about different simplices never contradict each other, and no vertex is moved. Values are
+/// taken as the exact rationals that doubles are; the arithmetic is in integers, fraction-free.
 ///
 /// columns: f(v_0), .., f(v_k), pointers to k finite doubles each.
 

@@ -16,8 +16,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-// The point number `index` of a sequence that fills the unit cube evenly in every dimension: additive recurrence with the powers
-// of the root of x^(d+1) = x + 1 (M. Roberts, 2018; for d = 1 the golden ratio).
+// The point number `index` of a sequence that fills the unit cube evenly in every dimension: additive recurrence with
+// the powers of the root of x^(d+1) = x + 1 (M. Roberts, 2018; for d = 1 the golden ratio).
 VectorXd low_discrepancy(std::size_t index, int dim) {
   double root = 1.5;
   for (int i = 0; i < 60; ++i) root = std::pow(1 + root, 1.0 / (dim + 1));
@@ -68,9 +68,9 @@ class Search {
     return J.allFinite();
   }
 
-  // Newton's method with steps of least norm. Converged: a step far below the size of the box. At a regular point convergence is
-  // quadratic; where the rows of Df are dependent it is linear, or the triangular factor of Df^T loses rank, or (derivatives
-  // taken by differences hide the former) a row shrinks to almost nothing.
+  // Newton's method with steps of least norm. Converged: a step far below the size of the box. At a regular point
+  // convergence is quadratic; where the rows of Df are dependent it is linear, or the triangular factor of Df^T loses
+  // rank, or (derivatives taken by differences hide the former) a row shrinks to almost nothing.
   std::optional<VectorXd> project(VectorXd x) {
     VectorXd f, largest_row = VectorXd::Zero(k_);
     bool vanishing = false;

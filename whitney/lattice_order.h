@@ -14,8 +14,8 @@ namespace whitney {
 /// the row that comes i-th.
 std::vector<std::uint32_t> lexicographic_order(std::span<const std::int32_t> coordinates, int dim);
 
-/// The canonical order of `count` simplices: by the index base(i) < num_vertices of the base vertex, then by the `dim` part numbers parts(i).
-/// Entry i is the simplex that comes i-th.
+/// The canonical order of `count` simplices: by the index base(i) < num_vertices of the base vertex, then by the `dim`
+/// part numbers parts(i). Entry i is the simplex that comes i-th.
 template <class Base, class Parts>
 std::vector<std::uint32_t> canonical_order(std::size_t num_vertices, std::uint32_t count, int dim, Base&& base,
                                            Parts&& parts) {

@@ -18,12 +18,12 @@ struct NamedArray {
 /// A pure simplicial complex of dimension `dim` in R^d: vertices and top simplices.
 /// The order of the vertices of a simplex is its orientation.
 struct SimplicialMesh {
-  int ambient_dim = 0;                    ///< d
-  int dim = 0;                            ///< n, the dimension of the simplices
-  std::vector<double> points;             ///< num_points x d
-  std::vector<std::uint32_t> simplices;   ///< num_simplices x (n+1)
-  std::vector<NamedArray> point_data{};   ///< one value per point
-  std::vector<NamedArray> cell_data{};    ///< one value per simplex
+  int ambient_dim = 0;                   ///< d
+  int dim = 0;                           ///< n, the dimension of the simplices
+  std::vector<double> points;            ///< num_points x d
+  std::vector<std::uint32_t> simplices;  ///< num_simplices x (n+1)
+  std::vector<NamedArray> point_data{};  ///< one value per point
+  std::vector<NamedArray> cell_data{};   ///< one value per simplex
 
   std::size_t num_points() const { return ambient_dim > 0 ? points.size() / ambient_dim : 0; }
   std::size_t num_simplices() const { return simplices.size() / (dim + 1); }

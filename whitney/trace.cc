@@ -53,10 +53,10 @@ constexpr int kMaxIntrinsicDim = 16;
 
 /// One run of the tracer.
 ///
-/// Notation: sigma = (v_0; parts 0..k) a k-simplex; a cofacet tau arises when part q is split into A before B, which adds
-/// the vertex w = v_q + e(A); as e(0) + .. + e(d) = 0, that is v_0 - e(B) when A holds the element d, and then w is the
-/// base vertex of tau. A cofacet has a number: the splits of part 0, then those of part 1, ..; within a part, A as a set of bits
-/// over the part's elements in increasing order, less 1.
+/// Notation: sigma = (v_0; parts 0..k) a k-simplex; a cofacet tau arises when part q is split into A before B, which
+/// adds the vertex w = v_q + e(A); as e(0) + .. + e(d) = 0, that is v_0 - e(B) when A holds the element d, and then w
+/// is the base vertex of tau. A cofacet has a number: the splits of part 0, then those of part 1, ..; within a part, A
+/// as a set of bits over the part's elements in increasing order, less 1.
 ///
 /// kDim: d when known at compile time (every loop over coordinates is then straight code: a third of the time), else 0.
 template <class Index, int kDim>
@@ -186,8 +186,8 @@ OracleError Tracer<Index, kDim>::not_finite(int component, double value, const d
     std::snprintf(number, sizeof number, "%s%.17g", c ? ", " : "", x[c]);
     at += number;
   }
-  return OracleError("component " + std::to_string(component + 1) + " of f is " + (std::isnan(value) ? "NaN" : "infinite") +
-                     " at (" + at + ")");
+  return OracleError("component " + std::to_string(component + 1) + " of f is " +
+                     (std::isnan(value) ? "NaN" : "infinite") + " at (" + at + ")");
 }
 
 template <class Index, int kDim>
@@ -259,15 +259,16 @@ void Tracer<Index, kDim>::list_cofacets(const Pending& simplex, std::size_t slot
   }
 }
 
-// From sigma over the cofacet to its other k-face that is hit, the one without vertex `leaving` of sigma: everything about it
-// but whether it is known.
+// From sigma over the cofacet to its other k-face that is hit, the one without vertex `leaving` of sigma: everything
+// about it but whether it is known.
 template <class Index, int kDim>
-void Tracer<Index, kDim>::prepare(const Pending& simplex, std::size_t slot, const Candidate& candidate, int leaving, Step& step) {
+void Tracer<Index, kDim>::prepare(const Pending& simplex, std::size_t slot, const Candidate& candidate, int leaving,
+                                  Step& step) {
   step.candidate = &candidate;
   Index* out = SimplexTable<Index>::parts_of(step.key);
-  step.over = coxeter::step_over_cofacet(simplices_.parts(simplex.id), part_lists(slot), d_, k_,
-                                         static_cast<int>(candidate.part), candidate.split, candidate.special, leaving,
-                                         out);
+  step.over =
+      coxeter::step_over_cofacet(simplices_.parts(simplex.id), part_lists(slot), d_, k_,
+                                 static_cast<int>(candidate.part), candidate.split, candidate.special, leaving, out);
   const std::uint32_t* v = simplex.vertices;
   std::uint32_t base = step.over.inserted == 0 ? candidate.vertex : v[0];
   if (step.over.removed == 0) base = step.over.inserted == 1 ? candidate.vertex : v[1];
@@ -292,7 +293,8 @@ void Tracer<Index, kDim>::take(const Pending& simplex, const Step& step) {
   simplices_.set_flag(id, step.over.number);
 }
 
-// x = b + Lambda (sum_q lambda_q v_q), where coordinate c of the sum is v_0[c] plus the weights of the vertices after its part.
+// x = b + Lambda (sum_q lambda_q v_q), where coordinate c of the sum is v_0[c] plus the weights of the vertices after
+// its part.
 template <class Index, int kDim>
 void Tracer<Index, kDim>::report_point(const Pending& simplex, int lane) {
   if (kernel_.reliable(lane)) {
@@ -556,8 +558,8 @@ TraceResult Tracer<Index, kDim>::result() {
 
 namespace {
 
-void check_arguments(const Function& f, const coxeter::Triangulation& triangulation, std::span<const double> seed_points,
-                     const TraceOptions& options) {
+void check_arguments(const Function& f, const coxeter::Triangulation& triangulation,
+                     std::span<const double> seed_points, const TraceOptions& options) {
   const int d = f.ambient_dim(), k = f.codim();
   if (triangulation.ambient_dim() != d)
     throw InvalidInput("trace: f is defined on R^" + std::to_string(d) + ", the triangulation is one of R^" +
@@ -569,12 +571,12 @@ void check_arguments(const Function& f, const coxeter::Triangulation& triangulat
     throw InvalidInput("trace: intrinsic dimension " + std::to_string(d - k) + " is beyond the largest supported, " +
                        std::to_string(kMaxIntrinsicDim));
   if (seed_points.size() % d != 0)
-    throw InvalidInput("trace: " + std::to_string(seed_points.size()) + " numbers are not a whole number of seed points in R^" +
-                       std::to_string(d));
+    throw InvalidInput("trace: " + std::to_string(seed_points.size()) +
+                       " numbers are not a whole number of seed points in R^" + std::to_string(d));
   for (std::size_t i = 0; i < seed_points.size(); ++i)
     if (!std::isfinite(seed_points[i]))
-      throw InvalidInput("trace: coordinate " + std::to_string(i % d + 1) + " of seed point " + std::to_string(i / d + 1) +
-                         " is not finite");
+      throw InvalidInput("trace: coordinate " + std::to_string(i % d + 1) + " of seed point " +
+                         std::to_string(i / d + 1) + " is not finite");
   if (!options.box) return;
   if (options.box->lower.size() != std::size_t(d) || options.box->upper.size() != std::size_t(d))
     throw InvalidInput("trace: the box must have " + std::to_string(d) + " lower and upper bounds");

@@ -63,10 +63,12 @@ struct SeedReport {
   std::string reason;
 };
 
-/// The k-simplices of a triangulation that meet the zero set of the piecewise-linear interpolant of f, and the points where they do.
+/// The k-simplices of a triangulation that meet the zero set of the piecewise-linear interpolant of f, and the points
+/// where they do.
 ///
-/// Sorted: vertices lexicographically by lattice coordinates; simplices by base vertex, then by the part numbers of their
-/// coordinates. So the result depends on f, the triangulation and the components found, not on the order of discovery.
+/// Sorted: vertices lexicographically by lattice coordinates; simplices by base vertex, then by the part numbers of
+/// their coordinates. So the result depends on f, the triangulation and the components found, not on the order of
+/// discovery.
 class TraceResult {
  public:
   int ambient_dim() const { return ambient_dim_; }
@@ -100,7 +102,9 @@ class TraceResult {
   static constexpr int kFirstWideCodim = 255;
   /// num_simplices x d: where simplex i meets the zero set of the interpolant.
   std::span<const double> points() const { return points_; }
-  std::span<const double> point(std::size_t i) const { return {points_.data() + i * ambient_dim_, std::size_t(ambient_dim_)}; }
+  std::span<const double> point(std::size_t i) const {
+    return {points_.data() + i * ambient_dim_, std::size_t(ambient_dim_)};
+  }
 
   std::vector<SeedReport> seeds;     ///< one for each seed point given
   std::size_t evaluations = 0;       ///< evaluations of f by the trace: exactly num_vertices()
@@ -125,10 +129,11 @@ class TraceResult {
 /// Traces the isomanifold f = 0 through a Coxeter-Freudenthal-Kuhn triangulation, starting near the seed points: SoCG
 /// 2021, Algorithm 1, by pivoting from facet to facet.
 ///
-/// f: R^d -> R^k, 1 <= k < d; the isomanifold has dimension n = d - k >= 1. seed_points: m x d, one after the other; a seed need
-/// not lie on the manifold: the neighbourhood is searched for a simplex that meets the zero set. f is evaluated once at each lattice vertex
-/// looked at. Zeros of f at lattice vertices need no care by the caller: the target is (eps, .., eps^k) for an infinitely
-/// small eps (see exact_pivot.h), and no decision depends on rounding errors of the tracer.
+/// f: R^d -> R^k, 1 <= k < d; the isomanifold has dimension n = d - k >= 1. seed_points: m x d, one after the other; a
+/// seed need not lie on the manifold: the neighbourhood is searched for a simplex that meets the zero set. f is
+/// evaluated once at each lattice vertex looked at. Zeros of f at lattice vertices need no care by the caller: the
+/// target is (eps, .., eps^k) for an infinitely small eps (see exact_pivot.h), and no decision depends on rounding
+/// errors of the tracer.
 ///
 /// Throws InvalidInput on sizes that do not fit or values that are not finite in the arguments, OracleError when f
 /// returns NaN or an infinite value, LatticeOverflow when an unbounded manifold runs out of lattice coordinates.

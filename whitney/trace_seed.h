@@ -14,7 +14,8 @@
 
 namespace whitney {
 
-/// A k-simplex that meets the zero set of the interpolant: its base vertex and the part (0..k) of every coordinate 0..d-1.
+/// A k-simplex that meets the zero set of the interpolant: its base vertex and the part (0..k) of every coordinate
+/// 0..d-1.
 struct Crossing {
   std::vector<std::int32_t> base;
   std::vector<int> parts;
@@ -22,9 +23,9 @@ struct Crossing {
 
 /// Searches for a simplex to start a trace from, around points near the manifold.
 ///
-/// The d-simplex that holds a point of M need not meet the zero set of the interpolant (at d = 10 and coarse edges, one in four
-/// does not). So: Newton's method on the interpolant, from simplex to simplex; then the d-simplices around the point, by distance,
-/// until one has a k-face that is hit. Remembers f at the vertices it has seen.
+/// The d-simplex that holds a point of M need not meet the zero set of the interpolant (at d = 10 and coarse edges, one
+/// in four does not). So: Newton's method on the interpolant, from simplex to simplex; then the d-simplices around the
+/// point, by distance, until one has a k-face that is hit. Remembers f at the vertices it has seen.
 class SeedSearch {
  public:
   /// f at one lattice vertex, k values; false: the vertex is outside the region where f may be asked.
@@ -32,7 +33,8 @@ class SeedSearch {
 
   SeedSearch(const coxeter::Triangulation& triangulation, int codim, Evaluate evaluate);
 
-  /// A crossing near x (d numbers, finite), or nothing and the reason in `reason`. Looks at `limit` d-simplices at most.
+  /// A crossing near x (d numbers, finite), or nothing and the reason in `reason`. Looks at `limit` d-simplices at
+  /// most.
   bool search(std::span<const double> x, std::size_t limit, Crossing& found, std::string& reason);
 
   std::size_t evaluations() const { return evaluations_; }
@@ -54,9 +56,9 @@ class SeedSearch {
   int dim_, codim_;
   Evaluate evaluate_;
   coxeter::VertexTable vertices_;
-  std::vector<double> values_;            // k a vertex
-  std::vector<char> inside_;              // whether f may be asked there
-  std::vector<std::uint32_t> ids_;        // vertices of the simplex loaded last
+  std::vector<double> values_;      // k a vertex
+  std::vector<char> inside_;        // whether f may be asked there
+  std::vector<std::uint32_t> ids_;  // vertices of the simplex loaded last
   BarycentricKernel kernel_;
   std::size_t evaluations_ = 0;
 };

@@ -29,7 +29,8 @@ std::set<Simplex> all_hit(const Function& f, const coxeter::Triangulation& trian
   std::set<Simplex> carriers;
   std::vector<std::int32_t> z(d, -size);
   for (;;) {
-    const Simplex vertex = Simplex::from_vertices(std::vector{coxeter::LatticeVertex(std::span<const std::int32_t>(z))});
+    const Simplex vertex =
+        Simplex::from_vertices(std::vector{coxeter::LatticeVertex(std::span<const std::int32_t>(z))});
     coxeter::for_each_coface(vertex, k, [&](const Simplex& simplex) {
       std::vector<double> values;
       for (const auto& v : simplex.vertices()) {
@@ -60,7 +61,8 @@ TEST(CellComplex, HasExactlyTheSimplicesThatBruteForceFinds) {
         std::set<Simplex> found;
         for (std::size_t i = 0; i < complex.num_cells(j); ++i) found.insert(complex.simplex(j, i));
         EXPECT_EQ(found.size(), complex.num_cells(j));
-        EXPECT_EQ(found, all_hit(m.function, triangulation, d == 4 ? 3 : 5, d - n + j)) << "n " << n << " d " << d << " j " << j;
+        EXPECT_EQ(found, all_hit(m.function, triangulation, d == 4 ? 3 : 5, d - n + j))
+            << "n " << n << " d " << d << " j " << j;
       }
     }
   }
@@ -93,8 +95,7 @@ TEST(CellComplex, CellsComeInTheCanonicalOrder) {
   const auto c = testing::rotated_and_shifted(testing::trace_cases()[8]);
   const CellComplex complex = cell_complex(trace(c.function, coxeter::coxeter_a(10, c.edge_length), c.seeds));
   for (int j = 0; j <= 2; ++j)
-    for (std::size_t i = 1; i < complex.num_cells(j); ++i)
-      ASSERT_LT(complex.simplex(j, i - 1), complex.simplex(j, i));
+    for (std::size_t i = 1; i < complex.num_cells(j); ++i) ASSERT_LT(complex.simplex(j, i - 1), complex.simplex(j, i));
 }
 
 TEST(CellComplex, AStoppedTraceLeavesAPureComplexOfWholeCells) {
@@ -148,7 +149,8 @@ TEST(Subdivide, PolygonsWalkRoundTheirEdges) {
     }
   }
   const auto three = testing::trace_cases()[4];
-  EXPECT_THROW(polygon_mesh(cell_complex(trace(three.function, coxeter::coxeter_a(4, 1.0), three.seeds))), InvalidInput);
+  EXPECT_THROW(polygon_mesh(cell_complex(trace(three.function, coxeter::coxeter_a(4, 1.0), three.seeds))),
+               InvalidInput);
 }
 
 }  // namespace

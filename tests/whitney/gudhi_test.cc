@@ -67,11 +67,14 @@ void expect_same_simplices(const Function& f, const std::vector<double>& seed, d
 }
 
 TEST(Gudhi, FindsTheSameSimplices) {
-  for (const auto& [manifold, edge] :
-       {std::pair{sphere(1, 2), 0.2}, {sphere(2, 3), 0.2}, {sphere(1, 4), 0.2}, {flat_torus(4), 0.3},
-        {sphere(3, 5), 0.7}, {flat_torus(7), 0.6}, {torus_of_revolution(), 0.3}}) {
-    const auto c =
-        testing::rotated_and_shifted({"", manifold.function, manifold.point, edge, 0, 1, {}});
+  for (const auto& [manifold, edge] : {std::pair{sphere(1, 2), 0.2},
+                                       {sphere(2, 3), 0.2},
+                                       {sphere(1, 4), 0.2},
+                                       {flat_torus(4), 0.3},
+                                       {sphere(3, 5), 0.7},
+                                       {flat_torus(7), 0.6},
+                                       {torus_of_revolution(), 0.3}}) {
+    const auto c = testing::rotated_and_shifted({"", manifold.function, manifold.point, edge, 0, 1, {}});
     SCOPED_TRACE(c.function.ambient_dim());
     expect_same_simplices(c.function, c.seeds, edge);
   }

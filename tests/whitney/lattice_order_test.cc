@@ -21,8 +21,7 @@ TEST(LatticeOrder, AgreesWithAComparisonSort) {
     const auto order = whitney::lexicographic_order(flat, 3);
     whitney::permute_rows(flat.data(), 3, order);
     std::sort(rows.begin(), rows.end());
-    for (int i = 0; i < 500; ++i)
-      EXPECT_EQ(std::vector(flat.begin() + 3 * i, flat.begin() + 3 * i + 3), rows[i]);
+    for (int i = 0; i < 500; ++i) EXPECT_EQ(std::vector(flat.begin() + 3 * i, flat.begin() + 3 * i + 3), rows[i]);
   }
   EXPECT_TRUE(whitney::lexicographic_order({}, 4).empty());
 }

@@ -81,19 +81,23 @@ TEST_P(Theory, WithVariablesPermuted) {
   expect_theory(c, coxeter::coxeter_a(d, c.edge_length));
 }
 
-INSTANTIATE_TEST_SUITE_P(Cases, Theory, ::testing::Range(0, int(testing::trace_cases().size())),
-                         [](const auto& info) {
-                           std::string name = testing::trace_cases()[info.param].name;
-                           for (char& c : name)
-                             if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(Cases, Theory, ::testing::Range(0, int(testing::trace_cases().size())), [](const auto& info) {
+  std::string name = testing::trace_cases()[info.param].name;
+  for (char& c : name)
+    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
+  return name;
+});
 
 TEST(Trace, LatticeVerticesOnTheSphere) {
   for (double radius : {1.0, 2.0, 3.0, 5.0, 7.0})
     for (int d : {3, 4}) {
-      const TraceCase c{"sphere of integer radius", sphere(2, d, radius).function, sphere(2, d, radius).point,
-                        std::sqrt(double(d)), 2, 1, {"Z", "0", "Z"}};
+      const TraceCase c{"sphere of integer radius",
+                        sphere(2, d, radius).function,
+                        sphere(2, d, radius).point,
+                        std::sqrt(double(d)),
+                        2,
+                        1,
+                        {"Z", "0", "Z"}};
       const TraceResult traced = trace(c.function, coxeter::freudenthal(d, c.edge_length), c.seeds);
       if (d == 4) EXPECT_GT(traced.exact_decisions, 0u);
       expect_theory(c, coxeter::freudenthal(d, c.edge_length));
@@ -118,7 +122,8 @@ TEST(Trace, ScalingByPowersOfTwoChangesNoBit) {
 }
 
 bool same(const TraceResult& a, const TraceResult& b) {
-  return std::ranges::equal(a.points(), b.points()) && std::ranges::equal(a.vertex_coordinates(), b.vertex_coordinates()) &&
+  return std::ranges::equal(a.points(), b.points()) &&
+         std::ranges::equal(a.vertex_coordinates(), b.vertex_coordinates()) &&
          std::ranges::equal(a.vertex_values(), b.vertex_values()) &&
          std::ranges::equal(a.parts<std::uint8_t>(), b.parts<std::uint8_t>());
 }
@@ -152,7 +157,8 @@ TEST(Trace, ASeedFarFromAnyZeroIsDroppedWithAReason) {
 }
 
 TEST(Trace, SeedsNeedNotLieInASimplexThatMeetsTheZeroSet) {
-  // At d = 10 and a coarse edge, the d-simplex around a point of M misses the interpolant's zero set in a quarter of all cases.
+  // At d = 10 and a coarse edge, the d-simplex around a point of M misses the interpolant's zero set in a quarter of
+  // all cases.
   const NamedManifold torus = flat_torus(10);
   TraceCase c = testing::rotated_and_shifted({"", torus.function, torus.point, 0.9, 0, 1, {}});
   const auto triangulation = coxeter::coxeter_a(10, 0.9);
@@ -258,9 +264,8 @@ TEST(Trace, BadInputIsNamed) {
   empty_box.box = Box{{0, 0}, {1, 0}};
   EXPECT_THROW(trace(circle, plane, std::vector<double>{1, 0}, empty_box), InvalidInput);
 
-  const Function broken = make_function(2, 1, [=](auto x, auto v) {
-    v[0] = x[0] > 0.5 ? nan : x[0] * x[0] + x[1] * x[1] - 1;
-  });
+  const Function broken =
+      make_function(2, 1, [=](auto x, auto v) { v[0] = x[0] > 0.5 ? nan : x[0] * x[0] + x[1] * x[1] - 1; });
   try {
     trace(broken, plane, std::vector<double>{-1, 0});
     FAIL() << "a NaN must not pass";

@@ -23,8 +23,9 @@ int main(int argc, char** argv) {
       "trace", "Trace the zero set of equations: a piecewise-linear manifold, its topology and a mesh of it");
   trace_command->add_option("PROBLEM", trace.problem, "problem file (JSON): equations, box, edge length; see README")
       ->required();
-  trace_command->add_option("-o,--output", trace.outputs,
-                            "mesh file, format by extension: .off .ply .obj .stl .vtu .mesh .noff .pov; repeatable")
+  trace_command
+      ->add_option("-o,--output", trace.outputs,
+                   "mesh file, format by extension: .off .ply .obj .stl .vtu .mesh .noff .pov; repeatable")
       ->take_all()
       ->expected(1);
   trace_command->add_option("--stats", trace.stats, "write counts, topology and timings to this JSON file");

@@ -24,8 +24,7 @@ std::string describe(const Topology& t, int n) {
       text = noun + ", links not checked";
       break;
   }
-  text += ", " + plural(t.components, "component") + ", Euler characteristic " +
-          std::to_string(t.euler_characteristic);
+  text += ", " + plural(t.components, "component") + ", Euler characteristic " + std::to_string(t.euler_characteristic);
   if (t.manifold == ManifoldKind::kClosed && n == 2 && t.components == 1)
     text += t.orientable ? ", genus " + std::to_string((2 - t.euler_characteristic) / 2) : "";
   text += "\n";

@@ -51,8 +51,7 @@ void check_outputs(const TraceArguments& arguments, int intrinsic_dim) {
     if (!std::filesystem::is_directory(folder)) throw FileError(file + ": there is no folder " + folder.string());
     if (access(folder.c_str(), W_OK) != 0) throw FileError(file + ": no permission to write into " + folder.string());
   }
-  for (const std::string& file : arguments.outputs)
-    check_mesh_format(file, intrinsic_dim, arguments.mesh == "cells");
+  for (const std::string& file : arguments.outputs) check_mesh_format(file, intrinsic_dim, arguments.mesh == "cells");
 }
 
 std::optional<Box> box_of(const Problem& problem) {
@@ -79,11 +78,12 @@ double edge_length_of(const TraceArguments& arguments, const Problem& problem, c
 std::string where_to_look(const TraceResult& traced, const FoundSeeds* search) {
   std::string text;
   if (search != nullptr && search->points.empty()) {
-    text = "no point of the manifold was found in the box (" + std::to_string(search->num_starts) +
-           " Newton iterations";
+    text =
+        "no point of the manifold was found in the box (" + std::to_string(search->num_starts) + " Newton iterations";
     if (search->num_singular > 0)
-      text += ", " + std::to_string(search->num_singular) +
-              " of them to points where the rows of the Jacobian are linearly dependent: 0 is not a regular value there";
+      text +=
+          ", " + std::to_string(search->num_singular) +
+          " of them to points where the rows of the Jacobian are linearly dependent: 0 is not a regular value there";
     return text + ")";
   }
   text = "no simplex meets the zero set";
@@ -113,8 +113,7 @@ int run_trace(const TraceArguments& arguments) {
   FoundSeeds found;
   const bool searched = seed_points.empty();
   if (searched) {
-    if (!box)
-      throw InvalidInput(arguments.problem + ": give seed_points, or a box in which they can be searched for");
+    if (!box) throw InvalidInput(arguments.problem + ": give seed_points, or a box in which they can be searched for");
     found = find_seeds(problem.function, *box);
     seed_points = found.points;
   }
@@ -144,7 +143,8 @@ int run_trace(const TraceArguments& arguments) {
   const CellComplex complex = cell_complex(traced);
   statistics.seconds["complex"] = watch.lap();
 
-  SimplicialMesh mesh = arguments.mesh == "barycentric" ? barycentric_subdivision(complex) : pulled_subdivision(complex);
+  SimplicialMesh mesh =
+      arguments.mesh == "barycentric" ? barycentric_subdivision(complex) : pulled_subdivision(complex);
   mesh = orient_by_function(std::move(mesh), problem.function).mesh;
   const bool polygons = arguments.mesh == "cells";
   PolygonMesh cells;
@@ -192,9 +192,10 @@ int run_trace(const TraceArguments& arguments) {
   if (!arguments.stats.empty()) write_file(arguments.stats, to_json(statistics));
 
   if (talk) {
-    std::cout << "R^" << d << ", " << k << (k == 1 ? " equation" : " equations") << ", edge length " << edge_length << ": "
-              << traced.num_simplices() << " simplices of dimension " << k << " meet the zero set, f evaluated at "
-              << traced.evaluations << " lattice vertices, " << traced.seconds << " s\n"
+    std::cout << "R^" << d << ", " << k << (k == 1 ? " equation" : " equations") << ", edge length " << edge_length
+              << ": " << traced.num_simplices() << " simplices of dimension " << k
+              << " meet the zero set, f evaluated at " << traced.evaluations << " lattice vertices, " << traced.seconds
+              << " s\n"
               << describe(statistics.topology, n);
     if (searched)
       std::cout << "seeds: searched for (" << found.num_starts << " starts), " << statistics.num_seeds_used

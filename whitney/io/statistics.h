@@ -14,15 +14,15 @@ namespace whitney {
 /// What a run of the program reports; the keys of the JSON file are the names of the members.
 struct Statistics {
   int ambient_dim = 0, intrinsic_dim = 0;
-  std::optional<double> edge_length;              ///< of the triangulation (a length)
+  std::optional<double> edge_length;  ///< of the triangulation (a length)
   std::size_t num_seeds_used = 0, num_seeds_merged = 0, num_seeds_dropped = 0;
-  std::map<int, std::size_t> simplices_per_dim;   ///< ambient simplices that the manifold meets, by their dimension
-  Topology topology;                              ///< of the mesh that is written
-  std::size_t oracle_evaluations = 0;             ///< of f by the trace
-  std::size_t seed_evaluations = 0;               ///< of f by the search for seeds and around them
-  std::size_t distinct_vertices = 0;              ///< lattice vertices at which the trace asked for f
-  std::size_t exact_decisions = 0;                ///< pivots decided by exact arithmetic
-  std::map<std::string, double> seconds;          ///< by phase
+  std::map<int, std::size_t> simplices_per_dim;  ///< ambient simplices that the manifold meets, by their dimension
+  Topology topology;                             ///< of the mesh that is written
+  std::size_t oracle_evaluations = 0;            ///< of f by the trace
+  std::size_t seed_evaluations = 0;              ///< of f by the search for seeds and around them
+  std::size_t distinct_vertices = 0;             ///< lattice vertices at which the trace asked for f
+  std::size_t exact_decisions = 0;               ///< pivots decided by exact arithmetic
+  std::map<std::string, double> seconds;         ///< by phase
   std::string stop_reason = "none";
 };
 

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The program `whitney` from outside: exit statuses, messages, files.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#ifdef WHITNEY_PROGRAM  // the program is built
+
+namespace {
+
+namespace fs = std::filesystem;
+
+class Program : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("whitney_program_test_" + std::to_string(getpid()));
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  std::string problem(const std::string& text) const {
+    std::ofstream(path("problem.json")) << text;
+    return path("problem.json");
+  }
+  static std::string content(const std::string& file) {
+    std::ifstream in(file, std::ios::binary);
+    std::stringstream all;
+    all << in.rdbuf();
+    return all.str();
+  }
+  /// Runs `whitney ARGUMENTS`; the exit status. Output of both kinds goes to output_.
+  int run(const std::string& arguments) {
+    const int status =
+        std::system((std::string(WHITNEY_PROGRAM) + " " + arguments + " >" + path("output") + " 2>&1").c_str());
+    output_ = content(path("output"));
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  bool says(const std::string& text) const { return output_.find(text) != std::string::npos; }
+  /// Files in the folder whose names begin with `name`: the file itself and any temporary of it.
+  int files(const std::string& name) const {
+    int count = 0;
+    for (const auto& entry : fs::directory_iterator(folder_))
+      count += entry.path().filename().string().find(name) != std::string::npos;
+    return count;
+  }
+
+  fs::path folder_;
+  std::string output_;
+};
+
+constexpr const char* kTorus = R"({"variables": ["a","b","c","d"], "equations": ["a^2+b^2-1", "c^2+d^2-1"],
+  "box": [[-2,2],[-2,2],[-2,2],[-2,2]], "triangulation": {"edge_length": 0.4}})";
+
+TEST_F(Program, TracesWritesAndChecks) {
+  ASSERT_EQ(
+      run("trace " + problem(kTorus) + " -o " + path("t.ply") + " -o " + path("t.noff") + " --stats " + path("s.json")),
+      0)
+      << output_;
+  EXPECT_TRUE(says("closed orientable surface, 1 component, Euler characteristic 0, genus 1")) << output_;
+  const std::string stats = content(path("s.json"));
+  for (const char* key :
+       {"\"ambient_dim\": 4", "\"intrinsic_dim\": 2", "\"edge_length\": 0.4", "\"num_seeds_used\": 1",
+        "\"simplices_per_dim\"", "\"euler_characteristic\": 0", "\"is_closed_manifold\": true", "\"Z^2\"",
+        "\"oracle_evaluations\"", "\"distinct_vertices\"", "\"peak_rss_bytes\"", "\"stop_reason\": \"none\""})
+    EXPECT_NE(stats.find(key), std::string::npos) << key;
+  for (const char* file : {"t.ply", "t.noff"}) {
+    EXPECT_EQ(run("check " + path(file)), 0);
+    EXPECT_TRUE(says("genus 1")) << output_;
+  }
+}
+
+TEST_F(Program, SameInputSameBytes) {
+  ASSERT_EQ(run("trace " + problem(kTorus) + " -q -o " + path("a.noff")), 0);
+  ASSERT_EQ(run("trace " + problem(kTorus) + " -q -o " + path("b.noff")), 0);
+  EXPECT_TRUE(output_.empty()) << output_;
+  EXPECT_EQ(content(path("a.noff")), content(path("b.noff")));
+}
+
+TEST_F(Program, EveryKindOfMesh) {
+  for (const char* kind : {"pulled", "barycentric", "cells"}) {
+    ASSERT_EQ(run("trace " + problem(kTorus) + " --mesh " + kind + " -o " + path("m.noff")), 0) << output_;
+    EXPECT_EQ(run("check " + path("m.noff")), 0);
+    EXPECT_TRUE(says("genus 1")) << kind << output_;
+  }
+}
+
+TEST_F(Program, LimitsLeaveWhatWasFoundAndStatusTwo) {
+  EXPECT_EQ(
+      run("trace " + problem(kTorus) + " --max-simplices 500 -o " + path("part.off") + " --stats " + path("s.json")),
+      2);
+  EXPECT_TRUE(fs::exists(path("part.off")));
+  EXPECT_NE(content(path("s.json")).find("\"stop_reason\": \"max_simplices\""), std::string::npos);
+  EXPECT_EQ(run("trace " + problem(kTorus) + " --time-limit 0 -o " + path("none.off")), 2) << output_;
+}
+
+TEST_F(Program, BadInputIsStatusOneAndNamesThePlace) {
+  const std::string out = " -o " + path("x.obj");
+  EXPECT_EQ(run("trace " + path("absent.json") + out), 1);
+  EXPECT_TRUE(says("absent.json")) << output_;
+  EXPECT_EQ(run("trace " + problem("{\"variables\": [\"x\",\"y\"], \"equations\": [\"x^2+y^2-1\"], \"bax\": 1}") + out),
+            1);
+  EXPECT_TRUE(says("bax") && says("problem.json")) << output_;
+  EXPECT_EQ(
+      run("trace " + problem("{\"variables\": [\"x\",\"y\"], \"equations\": [\"x^2+y^2-1\"], \"seed_points\": [[1]]}") +
+          out),
+      1);
+  EXPECT_TRUE(says("seed_points")) << output_;
+  // No real points; a double zero; NaN on the manifold.
+  EXPECT_EQ(
+      run("trace " +
+          problem("{\"variables\": [\"x\",\"y\"], \"equations\": [\"x^2+y^2+1\"], \"box\": [[-2,2],[-2,2]]}") + out),
+      1);
+  EXPECT_TRUE(says("no point of the manifold was found")) << output_;
+  EXPECT_EQ(
+      run("trace " +
+          problem("{\"variables\": [\"x\",\"y\"], \"equations\": [\"(x^2+y^2-1)^2\"], \"box\": [[-2,2],[-2,2]]}") +
+          out),
+      1);
+  EXPECT_TRUE(says("regular value")) << output_;
+  EXPECT_EQ(
+      run("trace " +
+          problem("{\"variables\": [\"x\",\"y\"], \"equations\": [\"sqrt(x)+y^2-1\"], \"box\": [[-2,2],[-2,2]]}") +
+          out),
+      1);
+  EXPECT_TRUE(says("NaN at (")) << output_;
+  EXPECT_EQ(run("trace " + problem(kTorus) + " -o " + path("x.gif")), 1);
+  EXPECT_TRUE(says(".gif")) << output_;
+  EXPECT_EQ(run("trace " + problem(kTorus) + " -o " + path("no/folder/x.off")), 1);
+  EXPECT_EQ(run("trace " + problem(kTorus) + " --mesh sponge"), 1);
+  EXPECT_EQ(run("trace " + problem(kTorus) + " --edge-length -1"), 1);
+  EXPECT_EQ(run("dance"), 1);
+  EXPECT_EQ(files("x.obj"), 0);
+  EXPECT_EQ(files("x.gif") + files("x.off"), 0);
+}
+
+TEST_F(Program, AFullDiskLosesOnlyTheFileThatDidNotFit) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
+  fs::create_symlink("/dev/full", path("full.off"));
+  EXPECT_EQ(run("trace " + problem(kTorus) + " -o " + path("full.off") + " -o " + path("fine.off")), 1);
+  EXPECT_TRUE(says("full.off")) << output_;
+  EXPECT_EQ(run("check " + path("fine.off")), 0);
+}
+
+TEST_F(Program, TheBoxCutsAndItSaysSo) {
+  EXPECT_EQ(run("trace " + problem(R"({"variables": ["x","y","z"], "equations": ["x^2+y^2-1"],
+    "box": [[-2,2],[-2,2],[-2,2]], "triangulation": {"edge_length": 0.3}})")),
+            0);
+  EXPECT_TRUE(says("reaches the box") && says("2 boundary components")) << output_;
+}
+
+TEST_F(Program, AMeshThatIsNoManifoldIsStatusThree) {
+  std::ofstream(path("book.off")) << "OFF\n5 3 0\n0 0 0\n1 0 0\n0 1 0\n0 -1 0\n0 0 1\n3 0 1 2\n3 0 1 3\n3 0 1 4\n";
+  EXPECT_EQ(run("check " + path("book.off")), 3);
+  EXPECT_TRUE(says("not a manifold")) << output_;
+  std::ofstream(path("cut.off")) << "OFF\n5 3 0\n0 0 0\n1 0";
+  EXPECT_EQ(run("check " + path("cut.off")), 1);
+  EXPECT_TRUE(says("cut.off")) << output_;
+}
+
+TEST_F(Program, HelpAndVersion) {
+  EXPECT_EQ(run("--help"), 0);
+  EXPECT_TRUE(says("trace") && says("check"));
+  EXPECT_EQ(run("trace --help"), 0);
+  EXPECT_TRUE(says("--edge-length"));
+  EXPECT_EQ(run("--version"), 0);
+  EXPECT_TRUE(says("whitney 0."));
+}
+
+}  // namespace
+
+#endif
