@@ -10,7 +10,7 @@
 #include <unordered_set>
 #include <utility>
 
-#include <coxeter/error.h>
+#include <coxeter/locate.h>
 #include <whitney/exact_pivot.h>
 
 namespace whitney {
@@ -24,20 +24,10 @@ SeedSearch::SeedSearch(const coxeter::Triangulation& triangulation, int codim, E
       ids_(dim_ + 1),
       kernel_(codim) {}
 
-SeedSearch::FullSimplex SeedSearch::locate(const double* y) const {
-  FullSimplex simplex{std::vector<std::int32_t>(dim_), std::vector<int>(dim_)};
-  std::vector<double> fraction(dim_);
-  for (int i = 0; i < dim_; ++i) {
-    const double floor = std::floor(y[i]);
-    if (!(std::abs(floor) < 2e9))
-      throw LatticeOverflow("a seed point lies " + std::to_string(std::abs(floor)) +
-                            " lattice steps from the origin of the triangulation: too far for 32-bit coordinates");
-    simplex.base[i] = static_cast<std::int32_t>(floor);
-    fraction[i] = y[i] - floor;
-  }
-  std::iota(simplex.order.begin(), simplex.order.end(), 0);
-  std::stable_sort(simplex.order.begin(), simplex.order.end(), [&](int a, int b) { return fraction[a] > fraction[b]; });
-  return simplex;
+SeedSearch::FullSimplex SeedSearch::locate(const Eigen::VectorXd& y) const {
+  const coxeter::Simplex simplex = coxeter::locate_full_lattice({y.data(), std::size_t(dim_)});
+  const auto elements = simplex.partition().elements();
+  return {{simplex.base().begin(), simplex.base().end()}, {elements.begin(), elements.end() - 1}};
 }
 
 // Across the facet opposite vertex q two neighbouring elements of the cyclic order of {0..d} change places.
@@ -132,7 +122,7 @@ bool SeedSearch::search(std::span<const double> x, std::size_t limit, Crossing& 
   // Newton's method on the interpolant: exact as soon as it stays in one simplex.
   Eigen::VectorXd y = start;
   for (int step = 0; step < 12; ++step) {
-    const FullSimplex simplex = locate(y.data());
+    const FullSimplex simplex = locate(y);
     if (!load(simplex)) break;
     ++examined;
     if (hit_face(simplex, found)) return true;
@@ -181,7 +171,7 @@ bool SeedSearch::search(std::span<const double> x, std::size_t limit, Crossing& 
     Eigen::VectorXd away = triangulation_.linear() * (Eigen::Map<const Eigen::VectorXd>(centre.data(), dim_) - start);
     queue.push({away.norm(), seen.size(), std::move(simplex)});
   };
-  push(locate(start.data()));
+  push(locate(start));
   bool any_inside = false;
   while (!queue.empty() && examined < limit) {
     const FullSimplex simplex = queue.top().simplex;

@@ -46,7 +46,7 @@ class SeedSearch {
     std::vector<int> order;  // a permutation of 0..d-1
   };
 
-  FullSimplex locate(const double* y) const;
+  FullSimplex locate(const Eigen::VectorXd& y) const;
   FullSimplex neighbour(const FullSimplex& simplex, int opposite) const;
   bool load(const FullSimplex& simplex);
   bool hit_face(const FullSimplex& simplex, Crossing& found);

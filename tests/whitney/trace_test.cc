@@ -2,6 +2,7 @@
 #include "trace_cases.h"
 
 #include <whitney/cell_complex.h>
+#include <whitney/find_seeds.h>
 #include <whitney/subdivide.h>
 #include <whitney/topology.h>
 #include <whitney/trace.h>
@@ -87,6 +88,25 @@ INSTANTIATE_TEST_SUITE_P(Cases, Theory, ::testing::Range(0, int(testing::trace_c
     if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
   return name;
 });
+
+TEST(Trace, CycloHeptaneIsClosedLoopsAsManyAtTwoEdgeLengths) {
+  const NamedManifold m = cyclo_heptane();
+  Box box;
+  for (const auto& [lower, upper] : m.box) {
+    box.lower.push_back(lower);
+    box.upper.push_back(upper);
+  }
+  const FoundSeeds seeds = find_seeds(m.function, box);
+  std::size_t components = 0;
+  for (double edge_length : {0.5, 0.4}) {
+    const TraceResult traced = trace(m.function, coxeter::coxeter_a(14, edge_length), seeds.points);
+    const Topology t = topology_of(pulled_subdivision(cell_complex(traced)));
+    EXPECT_TRUE(t.is_closed_manifold());
+    EXPECT_EQ(t.euler_characteristic, 0);
+    if (components == 0) components = t.components;
+    EXPECT_EQ(t.components, components);
+  }
+}
 
 TEST(Trace, LatticeVerticesOnTheSphere) {
   for (double radius : {1.0, 2.0, 3.0, 5.0, 7.0})
