@@ -4,7 +4,8 @@
 // runs interleaved, answers compared. CPU seconds; ratios are ratios of medians. Without libgudhi-dev only our side
 // runs.
 //
-//   trace_bench [--runs R] [--peer-runs P] [case ...]      cases: s2r3 t2r4 s3r6 t2r8 t2r10 t2r10fine
+//   trace_bench [--runs R] [--peer-runs P] [case ...]
+// P times: one run of the peer, then R of ours. Cases: s2r3 t2r4 s3r6 t2r8 t2r10 t2r10fine
 #include <coxeter/triangulation.h>
 #include <malloc.h>
 #include <sys/wait.h>
@@ -200,21 +201,22 @@ void run(const Case& c, int runs, int peer_runs) {
 
   std::vector<double> ours, theirs;
   std::size_t simplices = 0, evaluations = 0, vertices = 0, peer_simplices = 0, peer_evaluations = 0;
-  for (int r = 0; r < std::max(runs, peer_runs); ++r) {
+  for (int r = 0; r < std::max(1, peer_runs); ++r) {
 #ifdef WHITNEY_HAS_PEER
-    if (r < peer_runs) {
+    if (peer_runs > 0) {
       double seconds = 0;
       peer_simplices = run_peer(*manifold, triangulation, seconds, peer_evaluations);
       theirs.push_back(seconds);
     }
 #endif
-    if (r >= runs) continue;
-    const double start = cpu_seconds();
-    const whitney::TraceResult traced = whitney::trace(f, triangulation, seed_span);
-    ours.push_back(cpu_seconds() - start);
-    simplices = traced.num_simplices();
-    evaluations = traced.evaluations;
-    vertices = traced.num_vertices();
+    for (int i = 0; i < runs; ++i) {
+      const double start = cpu_seconds();
+      const whitney::TraceResult traced = whitney::trace(f, triangulation, seed_span);
+      ours.push_back(cpu_seconds() - start);
+      simplices = traced.num_simplices();
+      evaluations = traced.evaluations;
+      vertices = traced.num_vertices();
+    }
   }
   std::optional<whitney::TraceResult> traced_there;
   std::optional<whitney::CellComplex> complex_there;

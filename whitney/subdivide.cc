@@ -92,7 +92,10 @@ PolygonMesh polygon_mesh(const CellComplex& complex) {
   if (n > 2)
     throw InvalidInput("polygon_mesh: cells of dimension " + std::to_string(n) +
                        " are not polygons; take the pulled or the barycentric subdivision");
-  PolygonMesh mesh{complex.ambient_dim, n, complex.points};
+  PolygonMesh mesh;
+  mesh.ambient_dim = complex.ambient_dim;
+  mesh.dim = n;
+  mesh.points = complex.points;
   for (std::size_t i = 0; i < complex.num_cells(n); ++i) {
     const auto facets = complex.facets[n][i];
     if (n == 1) {

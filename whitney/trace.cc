@@ -597,8 +597,14 @@ TraceResult trace(const Function& f, const coxeter::Triangulation& triangulation
       return run.template operator()<std::uint8_t, 3>();
     case 4:
       return run.template operator()<std::uint8_t, 4>();
+    case 5:
+      return run.template operator()<std::uint8_t, 5>();
     case 6:
       return run.template operator()<std::uint8_t, 6>();
+    case 8:
+      return run.template operator()<std::uint8_t, 8>();
+    case 10:
+      return run.template operator()<std::uint8_t, 10>();
     default:
       return run.template operator()<std::uint8_t, 0>();
   }
