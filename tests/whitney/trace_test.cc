@@ -119,7 +119,9 @@ TEST(Trace, LatticeVerticesOnTheSphere) {
                         1,
                         {"Z", "0", "Z"}};
       const TraceResult traced = trace(c.function, coxeter::freudenthal(d, c.edge_length), c.seeds);
-      if (d == 4) EXPECT_GT(traced.exact_decisions, 0u);
+      if (d == 4) {
+        EXPECT_GT(traced.exact_decisions, 0u);
+      }
       expect_theory(c, coxeter::freudenthal(d, c.edge_length));
     }
 }
