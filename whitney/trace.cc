@@ -21,7 +21,6 @@
 namespace whitney {
 
 using coxeter::GrowingArray;
-using coxeter::HashSlots;
 using coxeter::SimplexTable;
 using coxeter::VertexTable;
 
@@ -58,7 +57,8 @@ constexpr int kMaxIntrinsicDim = 16;
 /// is the base vertex of tau. A cofacet has a number: the splits of part 0, then those of part 1, ..; within a part, A
 /// as a set of bits over the part's elements in increasing order, less 1.
 ///
-/// kDim: d when known at compile time (every loop over coordinates is then straight code: a third of the time), else 0.
+/// kDim: d when known at compile time (every loop over coordinates is then straight code: measured: 10 to 15 % less
+/// time), else 0.
 template <class Index, int kDim>
 class Tracer {
  public:
