@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <perturbation/foot_oracle.h>
+
 #include <memory>
 #include <optional>
 #include <span>
@@ -27,11 +29,7 @@ struct Bending {
 /// "proven", "caller", "estimated".
 const char* to_string(Bending::Source source);
 
-/// How far what an oracle returned may be from a point of M and its tangent space.
-struct FootErrors {
-  double point = 0;  ///< e_p: there is a point p of M within this distance of the one returned (a length)
-  double angle = 0;  ///< e_t: the largest angle between T_p M and the space returned is at most this (radians)
-};
+using perturbation::FootErrors;
 
 /// A compact C^{1,1} submanifold M of R^d without boundary, of dimension n and codimension k = d - n, given by an
 /// oracle: the foot (closest point) of x on M and the tangent space there. Orientable or not.

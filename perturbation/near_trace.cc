@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <perturbation/near_trace.h>
+
+#include <algorithm>
+
+namespace whitney::perturbation {
+
+void canonical_order(const NearSimplices& near, std::vector<std::uint32_t>& simplices) {
+  const int d = near.ambient_dim();
+  std::sort(simplices.begin(), simplices.end(), [&](std::uint32_t s, std::uint32_t t) {
+    if (s == t) return false;
+    if (const std::uint32_t a = near.base(s), b = near.base(t); a != b) {
+      const auto za = near.lattice_vertex(a), zb = near.lattice_vertex(b);
+      return std::lexicographical_compare(za.begin(), za.end(), zb.begin(), zb.end());
+    }
+    for (int c = 0; c < d; ++c)
+      if (const int a = near.part(s, c), b = near.part(t, c); a != b) return a < b;
+    return false;
+  });
+}
+
+NearTrace trace_near(NearSimplices& near, std::span<const std::uint32_t> starts, const NearTraceOptions& options) {
+  const int d = near.ambient_dim();
+  NearTrace trace;
+  std::vector<char> seen;
+  const auto reach = [&](std::uint32_t s) {
+    if (seen.size() <= s) seen.resize(std::max<std::size_t>(near.num_simplices(), s + 1), 0);
+    if (seen[s]) return;
+    seen[s] = 1;
+    trace.simplices.push_back(s);
+  };
+  for (const std::uint32_t s : starts) reach(s);
+  for (std::size_t next = 0; next < trace.simplices.size(); ++next) {
+    if (next >= options.max_simplices || (next % 256 == 255 && options.keep_going && !options.keep_going())) {
+      trace.complete = false;
+      break;
+    }
+    const std::uint32_t s = trace.simplices[next];
+    near.evaluate(s, options.enough);
+    const std::uint32_t hit = near.evaluate(s, options.with_midpoints ? 1 : 0, options.with_midpoints).hit_facets;
+    for (int q = 0; q <= d; ++q)
+      if (hit >> q & 1) reach(near.neighbour(s, q));
+  }
+  if (!trace.complete) trace.simplices.resize(std::min(trace.simplices.size(), options.max_simplices));
+  canonical_order(near, trace.simplices);
+  return trace;
+}
+
+std::uint32_t find_start(NearSimplices& near, std::span<const double> x, std::size_t max_simplices) {
+  std::vector<std::uint32_t> queue{near.locate(x)};
+  std::vector<char> seen;
+  for (std::size_t next = 0; next < queue.size() && next < max_simplices; ++next) {
+    const std::uint32_t s = queue[next];
+    if (near.evaluate(s, 1).is_hit()) return s;
+    for (int q = 0; q <= near.ambient_dim(); ++q) {
+      const std::uint32_t other = near.neighbour(s, q);
+      if (seen.size() <= other) seen.resize(near.num_simplices() + 1, 0);
+      if (seen[other]) continue;
+      seen[other] = 1;
+      queue.push_back(other);
+    }
+  }
+  return static_cast<std::uint32_t>(near.num_simplices());
+}
+
+}  // namespace whitney::perturbation

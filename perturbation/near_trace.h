@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <perturbation/near_simplices.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace whitney::perturbation {
+
+struct NearTraceOptions {
+  /// Feet are tried until the margin of a simplex is at least this.
+  double enough = 1.02;
+  /// Try the feet of the midpoints of edges too before a margin below 1 is accepted.
+  bool with_midpoints = true;
+  std::size_t max_simplices = std::numeric_limits<std::size_t>::max();
+  /// Asked every few hundred simplices; false stops the trace.
+  std::function<bool()> keep_going;
+};
+
+/// The d-simplices that a walk across hit facets reaches. One that is entered but hit for none of its own feet is among
+/// them, and ends the walk there.
+struct NearTrace {
+  std::vector<std::uint32_t> simplices;  ///< in canonical order, see canonical_order
+  bool complete = true;  ///< the walk ended by itself
+};
+
+/// Walks from the start simplices across hit facets: V of the global theorem, if all it finds is certified.
+NearTrace trace_near(NearSimplices& near, std::span<const std::uint32_t> starts, const NearTraceOptions& options = {});
+
+/// The hit simplex nearest to the one that holds x, in steps across facets: at most max_simplices are looked at. Returns
+/// num_simplices() when there is none.
+std::uint32_t find_start(NearSimplices& near, std::span<const double> x, std::size_t max_simplices = 5000);
+
+/// Sorts simplices by base vertex, then by the part numbers of their coordinates, as coxeter::Simplex does.
+void canonical_order(const NearSimplices& near, std::vector<std::uint32_t>& simplices);
+
+}  // namespace whitney::perturbation

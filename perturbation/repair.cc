@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <coxeter/error.h>
+#include <perturbation/repair.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace whitney::perturbation {
+namespace {
+
+/// A stream of random numbers that is a function of its keys alone.
+class Random {
+ public:
+  Random(std::uint64_t a, std::uint64_t b) : state_(coxeter::mix64(a ^ coxeter::mix64(b + 0x9e3779b97f4a7c15ull))) {}
+
+  std::uint64_t bits() { return coxeter::mix64(state_ += 0x9e3779b97f4a7c15ull); }
+  /// Uniform in [0, 1).
+  double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
+  int below(int n) { return static_cast<int>(uniform() * n); }
+  /// Uniform in the unit ball, by rejection for few and by normalised sums for many coordinates: the exact law does not
+  /// matter, that it has no preferred direction does.
+  void in_ball(std::span<double> x) {
+    double length = 0;
+    for (double& c : x) {
+      c = uniform() + uniform() + uniform() + uniform() - 2;
+      length += c * c;
+    }
+    const double scale = std::pow(uniform(), 1.0 / static_cast<double>(x.size())) / std::sqrt(std::max(length, 1e-30));
+    for (double& c : x) c *= scale;
+  }
+
+ private:
+  std::uint64_t state_;
+};
+
+class Repairer {
+ public:
+  Repairer(NearSimplices& near, std::span<const std::uint32_t> starts, const RepairOptions& options)
+      : near_(near), starts_(starts), options_(options), d_(near.ambient_dim()), step_(d_), fallback_(near.codim()) {
+    if (!(options.max_displacement > 0)) throw InvalidInput("max_displacement must be positive");
+  }
+
+  RepairResult run() {
+    RepairResult result;
+    for (int round = 0;; ++round) {
+      const bool polish = round >= options_.sweeps;
+      const double target = round < 2 ? options_.first_target : options_.target;
+      NearTraceOptions trace_options;
+      trace_options.enough = polish ? options_.accept : target;
+      trace_options.with_midpoints = polish;
+      trace_options.max_simplices = options_.max_simplices;
+      trace_options.keep_going = options_.keep_going;
+      const NearTrace trace = trace_near(near_, starts_, trace_options);
+      RepairRound record;
+      record.simplices = trace.simplices.size();
+      record.worst_margin = std::numeric_limits<double>::infinity();
+      failing_.clear();
+      for (const std::uint32_t s : trace.simplices) {
+        const double margin = near_.evaluate(s, 0).margin;
+        record.worst_margin = std::min(record.worst_margin, margin);
+        if (margin < options_.accept) failing_.push_back(s);
+      }
+      record.failing = failing_.size();
+      record.polish = polish;
+      result.rounds.push_back(record);
+      result.complete = trace.complete;
+      result.all_accepted = trace.complete && failing_.empty();
+      if (result.all_accepted || !trace.complete || round >= options_.max_rounds) return result;
+      round_ = round;
+      if (polish) {
+        reached_.assign(near_.num_simplices(), 0);
+        for (const std::uint32_t s : trace.simplices) reached_[s] = 1;
+        for (const std::uint32_t s : failing_) {
+          if (!going(result)) return result;
+          polish_simplex(s);
+        }
+      } else {
+        for (const std::uint32_t s : trace.simplices) {
+          if (!going(result)) return result;
+          push(s, target);
+        }
+      }
+    }
+  }
+
+ private:
+  bool going(RepairResult& result) {
+    if (++count_ % 64 != 0 || !options_.keep_going || options_.keep_going()) return true;
+    result.complete = false;
+    return false;
+  }
+
+  std::uint64_t vertex_key(std::uint32_t v) const {
+    std::uint64_t key = options_.rng_seed;
+    for (const std::int32_t z : near_.lattice_vertex(v)) key = coxeter::mix64(key ^ static_cast<std::uint32_t>(z));
+    return key;
+  }
+
+  /// Moves v by step, and back into the ball of radius rho about its lattice position.
+  void move(std::uint32_t v, std::span<const double> step) {
+    moved_.assign(near_.displacement(v), near_.displacement(v) + d_);
+    double length = 0;
+    for (int c = 0; c < d_; ++c) {
+      moved_[c] += step[c];
+      length += moved_[c] * moved_[c];
+    }
+    length = std::sqrt(length);
+    if (length > options_.max_displacement)
+      for (double& c : moved_) c *= options_.max_displacement / length * (1 - 1e-12);
+    near_.set_displacement(v, moved_);
+  }
+
+  void draw_fallback(std::uint32_t v) {
+    Random random(vertex_key(v), 2 * round_);
+    random.in_ball(fallback_);
+  }
+
+  /// Pushes all (k-1)-faces of s, as its best foot sees them, to the target.
+  void push(std::uint32_t s, double target) {
+    const Evaluation& evaluation = near_.evaluate(s, target);
+    if (evaluation.margin >= target) return;
+    Margins margins;
+    if (!near_.evaluate_at(s, evaluation.candidate, margins) || !margins.single_sheet) return;
+    draw_fallback(near_.corners(s)[0]);
+    steps_.assign((d_ + 1) * static_cast<std::size_t>(d_), 0.0);
+    near_.certificate().for_each_push(target, fallback_, [&](const Certificate::Push& push) {
+      for (int j = 0; j < near_.codim(); ++j)
+        for (int c = 0; c < d_; ++c) steps_[push.face[j] * d_ + c] += push.steps[j] * push.direction[c];
+    });
+    for (int q = 0; q <= d_; ++q) {
+      const std::span<const double> step(&steps_[static_cast<std::size_t>(q) * d_], d_);
+      if (std::any_of(step.begin(), step.end(), [](double c) { return c != 0; })) move(near_.corners(s)[q], step);
+    }
+  }
+
+  double penalty(const Evaluation& evaluation) const {
+    return evaluation.margin < options_.accept ? 1 + options_.accept - evaluation.margin : 0;
+  }
+
+  /// The visited simplices around the vertices that are about to move.
+  void collect_before(std::span<const std::uint32_t> moving) {
+    before_.clear();
+    for (const std::uint32_t v : moving)
+      for (const std::uint32_t s : near_.star(v))
+        if (is_reached(s) && mark(s)) before_.push_back(s);
+    for (const std::uint32_t s : before_) marks_[s] = 0;
+  }
+
+  bool is_reached(std::uint32_t s) const { return s < reached_.size() && reached_[s]; }
+  bool mark(std::uint32_t s) {
+    if (marks_.size() <= s) marks_.resize(near_.num_simplices() + 1, 0);
+    if (marks_[s]) return false;
+    marks_[s] = 1;
+    return true;
+  }
+
+  bool has_corner_among(std::uint32_t s, int except, std::span<const std::uint32_t> moving) const {
+    const std::uint32_t* corner = near_.corners(s);
+    for (int i = 0; i <= d_; ++i)
+      if (i != except && std::find(moving.begin(), moving.end(), corner[i]) != moving.end()) return true;
+    return false;
+  }
+
+  /// The penalty after the move, over the simplices around the moved vertices that are hit now: those hit before that
+  /// still are, and what a walk across hit facets inside the stars reaches from them. Stops when it exceeds `limit`.
+  double penalty_after(std::span<const std::uint32_t> moving, double limit) {
+    after_.clear();
+    double sum = 0;
+    const auto visit = [&](std::uint32_t s) {
+      if (!mark(s)) return;
+      after_.push_back(s);
+      sum += penalty(near_.evaluate(s, options_.accept, true));
+    };
+    for (const std::uint32_t s : before_) {
+      if (sum > limit) break;
+      if (near_.evaluate(s, options_.accept, true).is_hit()) visit(s);
+    }
+    for (std::size_t next = 0; next < after_.size() && sum <= limit; ++next) {
+      const std::uint32_t s = after_[next];
+      const std::uint32_t hit = near_.evaluate(s, 0).hit_facets;
+      for (int q = 0; q <= d_; ++q)
+        if ((hit >> q & 1) && has_corner_among(s, q, moving)) visit(near_.neighbour(s, q));
+    }
+    for (const std::uint32_t s : after_) marks_[s] = 0;
+    return sum;
+  }
+
+  struct Saved {
+    std::vector<double> displacement;
+    std::uint64_t version;
+  };
+
+  /// One trial: moves the vertices by steps (d numbers each) and keeps that if the penalty falls.
+  bool trial(std::span<const std::uint32_t> moving, std::span<const double> steps) {
+    collect_before(moving);
+    double before = 0;
+    remembered_.clear();
+    for (const std::uint32_t s : before_) {
+      remembered_.push_back(near_.evaluate(s, options_.accept, true));
+      before += penalty(remembered_.back());
+    }
+    if (before == 0) return false;
+    saved_.clear();
+    for (std::size_t i = 0; i < moving.size(); ++i) {
+      const double* u = near_.displacement(moving[i]);
+      saved_.push_back({{u, u + d_}, near_.version(moving[i])});
+      move(moving[i], steps.subspan(i * d_, d_));
+    }
+    if (penalty_after(moving, before * (1 - 1e-6)) < before * (1 - 1e-6)) {
+      for (const std::uint32_t s : before_) reached_[s] = 0;
+      reached_.resize(std::max(reached_.size(), near_.num_simplices()), 0);
+      for (const std::uint32_t s : after_) reached_[s] = 1;
+      return true;
+    }
+    for (std::size_t i = 0; i < moving.size(); ++i) near_.restore(moving[i], saved_[i].displacement, saved_[i].version);
+    for (std::size_t i = 0; i < before_.size(); ++i) near_.remember(before_[i], remembered_[i]);
+    return false;
+  }
+
+  void polish_simplex(std::uint32_t s) {
+    Random random(vertex_key(near_.base(s)), 2 * round_ + 1);
+    for (int c = 0; c < d_; ++c) random = Random(random.bits(), near_.part(s, c));
+    for (int attempt = 0; attempt < options_.trials; ++attempt) {
+      if (!is_reached(s)) return;
+      const Evaluation evaluation = near_.evaluate(s, options_.accept, true);
+      if (evaluation.margin >= options_.accept) return;
+      Margins margins;
+      moving_.clear();
+      trial_steps_.clear();
+      const std::uint32_t* corner = near_.corners(s);
+      if (near_.evaluate_at(s, evaluation.candidate, margins) && margins.single_sheet &&
+          margins.separation < options_.accept && attempt % 4 != 3) {
+        // The worst face: pushed (by more, then by less than needed), or all of it or one vertex at random.
+        draw_fallback(corner[0]);
+        double worst = options_.target;
+        std::vector<double> steps;
+        near_.certificate().for_each_push(options_.target, fallback_, [&](const Certificate::Push& push) {
+          const auto f = static_cast<std::size_t>(push.face - near_.certificate().low_faces()[0]) / near_.codim();
+          if (near_.certificate().separation(f) >= worst) return;
+          worst = near_.certificate().separation(f);
+          moving_.clear();
+          trial_steps_.clear();
+          for (int j = 0; j < near_.codim(); ++j) {
+            moving_.push_back(corner[push.face[j]]);
+            for (int c = 0; c < d_; ++c) trial_steps_.push_back(push.steps[j] * push.direction[c]);
+          }
+        });
+        if (attempt < 4) {
+          const double factor = attempt == 0 ? 1 : attempt == 1 ? 2 : 0.5;
+          for (double& c : trial_steps_) c *= factor;
+        } else {
+          if (random.below(2) == 0 && !moving_.empty()) moving_ = {moving_[random.below(static_cast<int>(moving_.size()))]};
+          random_steps(random);
+        }
+      } else {
+        moving_ = {corner[random.below(d_ + 1)]};
+        random_steps(random);
+      }
+      if (!moving_.empty()) trial(moving_, trial_steps_);
+    }
+  }
+
+  void random_steps(Random& random) {
+    const double size = options_.max_displacement * std::pow(10.0, 0.3 - 2 * random.uniform());
+    trial_steps_.clear();
+    for (std::size_t i = 0; i < moving_.size(); ++i) {
+      random.in_ball(step_);
+      for (const double c : step_) trial_steps_.push_back(size * c);
+    }
+  }
+
+  NearSimplices& near_;
+  std::span<const std::uint32_t> starts_;
+  const RepairOptions& options_;
+  int d_, round_ = 0;
+  std::size_t count_ = 0;
+  std::vector<double> step_, fallback_, moved_, steps_, trial_steps_;
+  std::vector<std::uint32_t> failing_, before_, after_, moving_;
+  std::vector<char> reached_, marks_;
+  std::vector<Evaluation> remembered_;
+  std::vector<Saved> saved_;
+};
+
+}  // namespace
+
+RepairResult repair(NearSimplices& near, std::span<const std::uint32_t> starts, const RepairOptions& options) {
+  return Repairer(near, starts, options).run();
+}
+
+}  // namespace whitney::perturbation
