@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <coxeter/error.h>
 #include <coxeter/quality.h>
+#include <coxeter/triangulation.h>
 
+#include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -52,6 +55,39 @@ Quality freudenthal_quality(int ambient_dim, double edge_length) {
   q.inradius = spacing / (2 + std::sqrt(2.0) * (d - 1));
   q.protection = ambient_dim == 1 ? edge_length : 0;
   return q;
+}
+
+double simplex_width(const Triangulation& triangulation) {
+  const int d = triangulation.ambient_dim();
+  const Eigen::MatrixXd gram = triangulation.linear().transpose() * triangulation.linear();
+  const double diagonal = gram(0, 0), other = d > 1 ? gram(0, 1) : 0;
+  bool symmetric = true;
+  for (int i = 0; i < d; ++i)
+    for (int j = 0; j < d; ++j)
+      symmetric = symmetric && std::abs(gram(i, j) - (i == j ? diagonal : other)) <= 1e-12 * diagonal;
+  double largest = 0;  // squared length of Lambda^-T g
+  if (symmetric) {
+    // (a I + b J)^-1 = (I - b / (a + d b) J) / a
+    const double a = diagonal - other;
+    const double beta = -other / (a + d * other) / a;
+    for (int ones = 0; ones <= d; ++ones)
+      for (int minus = std::max(0, ones - 1); minus <= ones + 1 && ones + minus <= d; ++minus)
+        largest = std::max(largest, (ones + minus) / a + beta * (ones - minus) * (ones - minus));
+  } else {
+    if (d > 12)
+      throw InvalidInput("simplex_width: ambient dimension " + std::to_string(d) +
+                         " is above 12, and the triangulation is not similar to a Coxeter or Freudenthal one");
+    const Eigen::MatrixXd gradients = triangulation.linear().inverse().transpose();
+    Eigen::VectorXi g = Eigen::VectorXi::Constant(d, -1);
+    for (;;) {
+      if (std::abs(g.sum()) <= 1) largest = std::max(largest, (gradients * g.cast<double>()).squaredNorm());
+      int i = 0;
+      while (i < d && g[i] == 1) g[i++] = -1;
+      if (i == d) break;
+      ++g[i];
+    }
+  }
+  return (1 - 1e-9) / std::sqrt(largest);
 }
 
 }  // namespace whitney::coxeter

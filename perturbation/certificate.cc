@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <coxeter/error.h>
 #include <perturbation/certificate.h>
+#include <perturbation/small_inverse.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,51 +9,6 @@
 
 namespace whitney::perturbation {
 namespace {
-
-/// X = M^-1 for the k x k matrix M (row-major), by Gauss-Jordan elimination with row pivoting; M is destroyed. False
-/// when a pivot is zero.
-bool invert(double* M, double* X, int k) {
-  if (k == 1) {
-    if (M[0] == 0) return false;
-    X[0] = 1 / M[0];
-    return true;
-  }
-  if (k == 2) {
-    const double determinant = M[0] * M[3] - M[1] * M[2];
-    if (determinant == 0) return false;
-    X[0] = M[3] / determinant;
-    X[1] = -M[1] / determinant;
-    X[2] = -M[2] / determinant;
-    X[3] = M[0] / determinant;
-    return true;
-  }
-  std::fill_n(X, k * k, 0.0);
-  for (int i = 0; i < k; ++i) X[i * k + i] = 1;
-  for (int c = 0; c < k; ++c) {
-    int pivot = c;
-    for (int i = c + 1; i < k; ++i)
-      if (std::abs(M[i * k + c]) > std::abs(M[pivot * k + c])) pivot = i;
-    if (M[pivot * k + c] == 0) return false;
-    if (pivot != c) {
-      std::swap_ranges(M + pivot * k, M + pivot * k + k, M + c * k);
-      std::swap_ranges(X + pivot * k, X + pivot * k + k, X + c * k);
-    }
-    const double scale = 1 / M[c * k + c];
-    for (int j = 0; j < k; ++j) {
-      M[c * k + j] *= scale;
-      X[c * k + j] *= scale;
-    }
-    for (int i = 0; i < k; ++i) {
-      const double factor = M[i * k + c];
-      if (i == c || factor == 0) continue;
-      for (int j = 0; j < k; ++j) {
-        M[i * k + j] -= factor * M[c * k + j];
-        X[i * k + j] -= factor * X[c * k + j];
-      }
-    }
-  }
-  return true;
-}
 
 /// An upper bound (within 3 % for matrices with up to 8 rows or columns) of the squared spectral norm of the rows x
 /// cols matrix G: exact when one of them is 1 or 2, else norm(A^16)_F^(1/16) for the smaller Gram matrix A.
@@ -93,14 +49,20 @@ double squared_norm(const double* G, int rows, int cols, double* gram, double* p
 
 }  // namespace
 
-Certificate::Certificate(int ambient_dim, int intrinsic_dim, double reach, double curvature_radius)
-    : d_(ambient_dim), n_(intrinsic_dim), k_(d_ - n_), reach_(reach), curvature_radius_(curvature_radius) {
+Certificate::Certificate(int ambient_dim, int intrinsic_dim, double reach, double curvature_radius, int simplex_dim)
+    : d_(ambient_dim),
+      n_(intrinsic_dim),
+      k_(d_ - n_),
+      m_(simplex_dim < 0 ? d_ : simplex_dim),
+      reach_(reach),
+      curvature_radius_(curvature_radius) {
   if (n_ < 1 || k_ < 1 || d_ > 31) throw InvalidInput("need 1 <= intrinsic_dim < ambient_dim <= 31");
+  if (m_ < k_ || m_ > d_) throw InvalidInput("simplex_dim must be from the codimension to the ambient dimension");
   if (!(reach > 0) || !(curvature_radius >= reach) || !std::isfinite(curvature_radius))
     throw InvalidInput("need 0 < reach <= curvature_radius, both finite");
-  low_faces_ = VertexSubsets(d_, k_ - 1);
-  faces_ = VertexSubsets(d_, k_);
-  const std::size_t vertices = d_ + 1, k = k_;
+  low_faces_ = VertexSubsets(m_, k_ - 1);
+  faces_ = VertexSubsets(m_, k_);
+  const std::size_t vertices = m_ + 1, k = k_;
   P_.resize(vertices * k);
   Q_.resize(vertices * n_);
   weight_.resize(vertices);
@@ -124,7 +86,7 @@ Margins Certificate::evaluate(const double* const* vertices, const FootView& foo
   foot_ = foot;
   Margins margins;
   double radius = 0;
-  for (int i = 0; i <= d_; ++i) {
+  for (int i = 0; i <= m_; ++i) {
     const double* v = vertices[i];
     double length = 0;
     for (int a = 0; a < n_; ++a) {
@@ -146,7 +108,7 @@ Margins Certificate::evaluate(const double* const* vertices, const FootView& foo
   radius = std::sqrt(radius);
   if (!(radius < reach_)) return margins;
   const double far = reach_ + std::sqrt(reach_ * reach_ - radius * radius);
-  for (int i = 0; i <= d_; ++i) {
+  for (int i = 0; i <= m_; ++i) {
     double height = 0;
     for (int b = 0; b < k_; ++b) height += P_[i * k_ + b] * P_[i * k_ + b];
     if (!(height < far * far)) return margins;
@@ -159,7 +121,7 @@ Margins Certificate::evaluate(const double* const* vertices, const FootView& foo
     return squared / (curvature_radius_ + std::sqrt(curvature_radius_ * curvature_radius_ - squared));
   };
   const double floor = 1e-3 * leave(radius * radius);
-  for (int i = 0; i <= d_; ++i) {
+  for (int i = 0; i <= m_; ++i) {
     weight_[i] = std::max(leave(weight_[i]), floor);
     const double inverse = 1 / weight_[i];
     for (int b = 0; b < k_; ++b) scaled_[i * k_ + b] = P_[i * k_ + b] * inverse;
@@ -181,7 +143,7 @@ Margins Certificate::evaluate(const double* const* vertices, const FootView& foo
 void Certificate::find_hits(Margins& margins) {
   const double over_radius = margins.transversality;  // R_c / r
   double steepest = -1;                               // the largest squared tangent of the angle between sigma and N
-  const std::uint32_t all = d_ == 31 ? ~std::uint32_t{0} : (std::uint32_t{1} << (d_ + 1)) - 1;
+  const std::uint32_t all = (std::uint32_t{2} << m_) - 1;
   double *M = matrix_.data(), *X = M + k_ * k_;
   double *E = slope_.data(), *G = E + n_ * k_;
   for (std::size_t f = 0; f < faces_.num(); ++f) {

@@ -49,22 +49,24 @@ struct FootView {
   FootErrors errors;
 };
 
-/// Evaluates the conditions of the certificate on one d-simplex after the other. Keeps scratch memory; one object per
-/// thread. The conditions and the theorem: perturbation/README.md.
+/// Evaluates the conditions of the certificate on one simplex after the other: a d-simplex tau, or a face of it of
+/// dimension at least k, for which the same argument says how M meets it. Keeps scratch memory; one object per thread. The conditions and the theorem: perturbation/README.md.
 class Certificate {
  public:
-  /// Throws InvalidInput unless 1 <= intrinsic_dim < ambient_dim <= 31 and 0 < reach <= curvature_radius are finite.
-  Certificate(int ambient_dim, int intrinsic_dim, double reach, double curvature_radius);
+  /// simplex_dim: the dimension m of the simplices, k <= m <= d; d when negative. Throws InvalidInput unless
+  /// 1 <= intrinsic_dim < ambient_dim <= 31 and 0 < reach <= curvature_radius are finite.
+  Certificate(int ambient_dim, int intrinsic_dim, double reach, double curvature_radius, int simplex_dim = -1);
 
   int ambient_dim() const { return d_; }
   int intrinsic_dim() const { return n_; }
   int codim() const { return k_; }
+  int simplex_dim() const { return m_; }
   double reach() const { return reach_; }
   double curvature_radius() const { return curvature_radius_; }
   const VertexSubsets& low_faces() const { return low_faces_; }  ///< the (k-1)-faces
   const VertexSubsets& hit_candidates() const { return faces_; }  ///< the k-faces
 
-  /// The margins of the simplex with the given vertices (d + 1 pointers to d numbers) at one foot.
+  /// The margins of the simplex with the given vertices (m + 1 pointers to d numbers) at one foot.
   Margins evaluate(const double* const* vertices, const FootView& foot);
 
   /// A (k-1)-face that is too close to the plane, and in which direction its vertices leave it.
@@ -96,12 +98,12 @@ class Certificate {
   void find_hits(Margins& margins);
   bool make_push(std::size_t f, double target, std::span<const double> fallback);
 
-  int d_, n_, k_;
+  int d_, n_, k_, m_;
   double reach_, curvature_radius_;
   VertexSubsets low_faces_, faces_;
   MinNormPoint min_norm_;
   FootView foot_{};
-  std::vector<double> P_, Q_, weight_, scaled_;          // (d+1) x k, (d+1) x n, d+1, (d+1) x k
+  std::vector<double> P_, Q_, weight_, scaled_;          // (m+1) x k, (m+1) x n, m+1, (m+1) x k
   std::vector<double> separation_, nearest_, low_lambda_;  // per (k-1)-face: 1, k, k
   std::vector<char> hit_;                                // per k-face
   std::vector<double> lambda_;                           // per k-face: k+1

@@ -50,6 +50,13 @@ void NearSimplices::set_displacement(std::uint32_t v, std::span<const double> u)
   restore(v, u, ++last_version_);
 }
 
+void NearSimplices::displace(const DisplacementMap& displacements) {
+  for (std::size_t i = 0; i < displacements.size(); ++i) {
+    const std::int32_t* z = displacements.vertices()[i].data();
+    set_displacement(enter_vertex(z, vertices_.form_of(z)), displacements.displacement(i));
+  }
+}
+
 void NearSimplices::restore(std::uint32_t v, std::span<const double> u, std::uint64_t version) {
   double* x = &positions_[std::size_t{v} * d_];
   triangulation_.cartesian(lattice_vertex(v), {x, static_cast<std::size_t>(d_)});

@@ -6,6 +6,7 @@
 #include <coxeter/triangulation.h>
 #include <coxeter/vertex_table.h>
 #include <perturbation/certificate.h>
+#include <perturbation/displacement.h>
 #include <perturbation/foot_oracle.h>
 
 #include <cstddef>
@@ -61,6 +62,8 @@ class NearSimplices {
   const double* displacement(std::uint32_t v) const { return &displacements_[std::size_t{v} * d_]; }
   /// Moves v to x(v) + u; u: d.
   void set_displacement(std::uint32_t v, std::span<const double> u);
+  /// Sets the displacements of all vertices of the map.
+  void displace(const DisplacementMap& displacements);
   /// What set_displacement replaced can be put back, with the version it had then.
   std::uint64_t version(std::uint32_t v) const { return version_[v]; }
   void restore(std::uint32_t v, std::span<const double> u, std::uint64_t version);

@@ -176,31 +176,29 @@ bool is_complete(std::span<const std::uint32_t> cell_facets, int cell_dim, const
 }
 
 template <class Index>
-CellComplex build(const TraceResult& trace) {
-  const int d = trace.ambient_dim(), n = trace.intrinsic_dim();
+CellComplex build(const CrossedSimplices& crossed, std::span<const Index> parts) {
+  const int d = crossed.ambient_dim, n = d - crossed.codim;
+  const std::size_t num_simplices = crossed.base.size();
   CellComplex complex;
   complex.ambient_dim = d;
   complex.intrinsic_dim = n;
-  const auto coordinates = trace.vertex_coordinates();
-  complex.vertex_coordinates.assign(coordinates.begin(), coordinates.end());
+  complex.vertex_coordinates.assign(crossed.vertex_coordinates.begin(), crossed.vertex_coordinates.end());
 
   VertexTable vertices(d);
-  for (std::size_t v = 0; v < trace.num_vertices(); ++v) {
-    const std::int32_t* z = coordinates.data() + v * d;
+  for (std::size_t at = 0; at < crossed.vertex_coordinates.size(); at += d) {
+    const std::int32_t* z = crossed.vertex_coordinates.data() + at;
     vertices.intern(z, vertices.form_of(z));
   }
 
   std::vector<Level<Index>> levels(n + 1);
-  levels[0].base.resize(trace.num_simplices());
-  for (std::size_t i = 0; i < trace.num_simplices(); ++i) levels[0].base[i] = trace.base(i);
-  const auto parts = trace.parts<Index>();
+  levels[0].base.assign(crossed.base.begin(), crossed.base.end());
   levels[0].parts.assign(parts.begin(), parts.end());
-  complex.facets.push_back(empty_lists(trace.num_simplices()));
+  complex.facets.push_back(empty_lists(num_simplices));
 
-  const bool whole = trace.stop_reason == StopReason::kNone;
+  const bool whole = crossed.whole;
   Cofacets<Index> cofacets(d, vertices);
   for (int j = 0; j < n; ++j) {
-    auto [next, around] = cofacets.of(levels[j], trace.codim() + j + 1);
+    auto [next, around] = cofacets.of(levels[j], crossed.codim + j + 1);
     Incidence facets = transposed(around, next.base.size());
     if (!whole) {
       std::vector<char> keep(next.base.size());
@@ -212,7 +210,7 @@ CellComplex build(const TraceResult& trace) {
     complex.facets.push_back(std::move(facets));
   }
 
-  std::vector<std::uint32_t> point_of(trace.num_simplices());
+  std::vector<std::uint32_t> point_of(num_simplices);
   for (std::uint32_t i = 0; i < point_of.size(); ++i) point_of[i] = i;
   if (!whole) {
     for (int j = n - 1; j >= 0; --j) {
@@ -230,8 +228,7 @@ CellComplex build(const TraceResult& trace) {
 
   complex.points.resize(point_of.size() * d);
   for (std::size_t i = 0; i < point_of.size(); ++i) {
-    const auto point = trace.point(point_of[i]);
-    std::copy(point.begin(), point.end(), &complex.points[i * d]);
+    std::copy_n(&crossed.points[std::size_t{point_of[i]} * d], d, &complex.points[i * d]);
   }
   for (int j = 0; j <= n; ++j) {
     complex.cofacets.push_back(j < n ? transposed(complex.facets[j + 1], levels[j].base.size())
@@ -254,10 +251,29 @@ coxeter::Simplex CellComplex::simplex(int j, std::size_t i) const {
           coxeter::OrderedPartition::from_part_indices(part_indices)};
 }
 
-CellComplex cell_complex(const TraceResult& trace) {
+CellComplex cell_complex(const CrossedSimplices& crossed) {
+  if (!crossed.wide_parts.empty()) return build<std::uint16_t>(crossed, crossed.wide_parts);
   // Part numbers go up to d here.
-  if (trace.ambient_dim() < TraceResult::kFirstWideCodim) return build<std::uint8_t>(trace);
-  return build<std::uint16_t>(trace);
+  if (crossed.ambient_dim < TraceResult::kFirstWideCodim) return build<std::uint8_t>(crossed, crossed.parts);
+  const std::vector<std::uint16_t> wide(crossed.parts.begin(), crossed.parts.end());
+  return build<std::uint16_t>(crossed, wide);
+}
+
+CellComplex cell_complex(const TraceResult& trace) {
+  CrossedSimplices crossed;
+  crossed.ambient_dim = trace.ambient_dim();
+  crossed.codim = trace.codim();
+  crossed.vertex_coordinates = trace.vertex_coordinates();
+  std::vector<std::uint32_t> base(trace.num_simplices());
+  for (std::size_t i = 0; i < base.size(); ++i) base[i] = trace.base(i);
+  crossed.base = base;
+  if (trace.has_wide_parts())
+    crossed.wide_parts = trace.parts<std::uint16_t>();
+  else
+    crossed.parts = trace.parts<std::uint8_t>();
+  crossed.points = trace.points();
+  crossed.whole = trace.stop_reason == StopReason::kNone;
+  return cell_complex(crossed);
 }
 
 }  // namespace whitney

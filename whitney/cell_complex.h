@@ -54,11 +54,27 @@ struct CellComplex {
   coxeter::Simplex simplex(int j, std::size_t i) const;
 };
 
-/// Builds the cell complex of a trace: every coface of a simplex that is hit is hit, so the (j+1)-cells are the
+/// k-simplices of the triangulation that a manifold crosses, each in one point: what a cell complex is made from.
+struct CrossedSimplices {
+  int ambient_dim = 0, codim = 0;
+  std::span<const std::int32_t> vertex_coordinates;  ///< num x d, distinct lattice vertices, lexicographically sorted
+  std::span<const std::uint32_t> base;               ///< per simplex: the index of its base vertex
+  /// num_simplices x d: the part of the ordered partition that each coordinate is in, 0..k; in the canonical order.
+  /// One of the two: uint16_t when codim >= TraceResult::kFirstWideCodim.
+  std::span<const std::uint8_t> parts;
+  std::span<const std::uint16_t> wide_parts;
+  std::span<const double> points;  ///< num_simplices x d
+  bool whole = true;               ///< all simplices that the manifold crosses are there
+};
+
+/// Builds the cell complex of crossed simplices: every coface of a simplex that is hit is hit, so the (j+1)-cells are the
 /// cofacets of the j-cells.
 ///
-/// When the trace was stopped or cut by its box, cells of which a face is missing are left out, then those that are
+/// When they are not the whole, cells of which a face is missing are left out, then those that are
 /// faces of no n-cell. Throws InvalidInput when there are more than 2^32 - 2 cells or incidences of one dimension.
+CellComplex cell_complex(const CrossedSimplices& crossed);
+
+/// That of a trace. Cut by its box, it is not whole.
 CellComplex cell_complex(const TraceResult& trace);
 
 }  // namespace whitney

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <perturbation/certificate_proof.h>
+#include <perturbation/violation.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace whitney::perturbation {
+namespace {
+
+/// A simplex of dimension m in R^d: m + 1 points, one after the other.
+using Piece = std::vector<double>;
+
+class Searcher {
+ public:
+  Searcher(NearSimplices& near, const ViolationOptions& options)
+      : near_(near),
+        options_(options),
+        d_(near.ambient_dim()),
+        k_(near.codim()),
+        certificate_(d_, d_ - k_, near.oracle().reach(), near.oracle().curvature_radius(), k_),
+        prover_(certificate_),
+        point_(d_),
+        frame_(d_ * d_) {}
+
+  std::optional<Violation> examine(std::uint32_t s) {
+    const VertexSubsets& faces = near_.certificate().hit_candidates();
+    bool all_empty = true;
+    for (std::size_t f = 0; f < faces.num(); ++f) {
+      Piece piece;
+      for (int j = 0; j <= k_; ++j) {
+        const double* x = near_.position(near_.corners(s)[faces[f][j]]);
+        piece.insert(piece.end(), x, x + d_);
+      }
+      const Face face = look_at(piece);
+      if (face.points.size() >= 2 * static_cast<std::size_t>(d_))
+        return Violation{Violation::Kind::kTwoPointsOnFace, near_.simplex(s),
+                         std::vector<int>(faces[f], faces[f] + k_ + 1), face.points};
+      all_empty = all_empty && face.empty;
+    }
+    if (!all_empty) return std::nullopt;
+    return point_inside(s);
+  }
+
+ private:
+  struct Face {
+    bool empty = true;           ///< proved to hold no point of M
+    std::vector<double> points;  ///< d for each piece proved to hold one
+  };
+
+  bool project(const std::vector<double>& x, FootErrors& errors) {
+    return near_.oracle().foot(x, point_, frame_, errors);
+  }
+
+  Face look_at(const Piece& whole) {
+    Face face;
+    std::vector<Piece> stack{whole};
+    std::size_t pieces = 0;
+    while (!stack.empty()) {
+      const Piece piece = std::move(stack.back());
+      stack.pop_back();
+      if (++pieces > options_.max_pieces) {
+        face.empty = false;
+        return face;
+      }
+      std::vector<double> centre(d_, 0.0);
+      for (int j = 0; j <= k_; ++j)
+        for (int c = 0; c < d_; ++c) centre[c] += piece[j * d_ + c] / (k_ + 1);
+      FootErrors errors;
+      const bool exists = project(centre, errors);
+      double size = 0;
+      for (int j = 0; j <= k_; ++j) {
+        double squared = 0;
+        for (int c = 0; c < d_; ++c) squared += std::pow(piece[j * d_ + c] - centre[c], 2);
+        size = std::max(size, std::sqrt(squared));
+      }
+      if (exists) {
+        double squared = 0;
+        for (int c = 0; c < d_; ++c) squared += std::pow(centre[c] - point_[c], 2);
+        // Relative rounding errors of these sums stay far below 1e-12.
+        if (std::sqrt(squared) * (1 - 1e-12) - errors.point > size * (1 + 1e-12)) continue;
+        std::vector<const double*> corner(k_ + 1);
+        double largest = 0;
+        for (int j = 0; j <= k_; ++j) corner[j] = &piece[j * d_];
+        for (const double x : piece) largest = std::max(largest, std::abs(x));
+        // A piece is as far from the exact one as the rounding of its midpoints took it: at most one unit in the last
+        // place for each of fewer than a hundred bisections. It counts like an error of the foot.
+        errors.point += 100 * d_ * largest * std::numeric_limits<double>::epsilon();
+        const Proof proof = prover_.prove(corner.data(), {point_.data(), frame_.data(), errors});
+        if (proof.proven() && proof.num_hit == 1) {
+          face.empty = false;
+          face.points.insert(face.points.end(), point_.begin(), point_.end());
+          if (face.points.size() >= 2 * static_cast<std::size_t>(d_)) return face;
+          continue;
+        }
+      }
+      bisect(piece, stack);
+    }
+    return face;
+  }
+
+  void bisect(const Piece& piece, std::vector<Piece>& stack) const {
+    double longest = -1;
+    int a = 0, b = 0;
+    for (int i = 0; i <= k_; ++i)
+      for (int j = 0; j < i; ++j) {
+        double squared = 0;
+        for (int c = 0; c < d_; ++c) squared += std::pow(piece[i * d_ + c] - piece[j * d_ + c], 2);
+        if (squared <= longest) continue;
+        longest = squared;
+        a = i;
+        b = j;
+      }
+    for (const int replaced : {a, b}) {
+      Piece half = piece;
+      for (int c = 0; c < d_; ++c) half[replaced * d_ + c] = (piece[a * d_ + c] + piece[b * d_ + c]) / 2;
+      stack.push_back(std::move(half));
+    }
+  }
+
+  /// A foot of the barycentre or of a vertex that lies inside the simplex by more than its error.
+  std::optional<Violation> point_inside(std::uint32_t s) {
+    Eigen::MatrixXd A(d_ + 1, d_ + 1);
+    for (int i = 0; i <= d_; ++i) {
+      const double* x = near_.position(near_.corners(s)[i]);
+      A(0, i) = 1;
+      for (int c = 0; c < d_; ++c) A(c + 1, i) = x[c];
+    }
+    const Eigen::MatrixXd inverse = A.inverse();
+    for (std::uint16_t candidate = 0; candidate <= d_ + 1; ++candidate) {
+      FootView foot{};
+      if (!near_.foot(s, candidate, foot)) continue;
+      Eigen::VectorXd x(d_ + 1);
+      x[0] = 1;
+      for (int c = 0; c < d_; ++c) x[c + 1] = foot.point[c];
+      const Eigen::VectorXd lambda = inverse * x;
+      const double uncertainty = inverse.rightCols(d_).rowwise().norm().maxCoeff() * foot.errors.point + 1e-9;
+      if (lambda.minCoeff() > uncertainty)
+        return Violation{Violation::Kind::kMissesAllFaces, near_.simplex(s), {}, {foot.point, foot.point + d_}};
+    }
+    return std::nullopt;
+  }
+
+  NearSimplices& near_;
+  const ViolationOptions& options_;
+  int d_, k_;
+  Certificate certificate_;
+  CertificateProver prover_;
+  std::vector<double> point_, frame_;
+};
+
+}  // namespace
+
+std::string describe(const Violation& violation) {
+  return violation.kind == Violation::Kind::kTwoPointsOnFace
+             ? "the manifold crosses one face of dimension k of the triangulation twice"
+             : "the manifold meets a simplex of the triangulation but none of its faces of dimension k";
+}
+
+std::optional<Violation> find_violation(NearSimplices& near, std::span<const std::uint32_t> simplices,
+                                        const ViolationOptions& options) {
+  Searcher searcher(near, options);
+  for (std::size_t i = 0; i < simplices.size() && i < options.max_simplices; ++i)
+    if (auto violation = searcher.examine(simplices[i])) return violation;
+  return std::nullopt;
+}
+
+}  // namespace whitney::perturbation

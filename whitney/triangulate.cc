@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <coxeter/error.h>
+#include <coxeter/quality.h>
+#include <whitney/near_complex.h>
+#include <whitney/triangulate.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace whitney {
+namespace {
+
+using perturbation::NearSimplices;
+using perturbation::NearTrace;
+using perturbation::NearTraceOptions;
+
+class Oracle : public perturbation::FootOracle {
+ public:
+  Oracle(const Submanifold& manifold, const Bending& bending) : manifold_(manifold), bending_(bending) {}
+
+  int ambient_dim() const override { return manifold_.ambient_dim(); }
+  int intrinsic_dim() const override { return manifold_.intrinsic_dim(); }
+  double reach() const override { return bending_.reach; }
+  double curvature_radius() const override { return std::max(bending_.reach, bending_.curvature_radius); }
+  bool foot(std::span<const double> x, std::span<double> point, std::span<double> frame,
+            FootErrors& errors) const override {
+    return manifold_.project(x, point, frame, errors);
+  }
+
+ private:
+  const Submanifold& manifold_;
+  const Bending& bending_;
+};
+
+class Watch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+void check(const Submanifold& manifold, const Bending& bending, const coxeter::Triangulation& triangulation,
+           std::span<const double> seed_points, const TriangulateOptions& options) {
+  const int d = manifold.ambient_dim();
+  if (triangulation.ambient_dim() != d)
+    throw InvalidInput("triangulation: ambient dimension " + std::to_string(triangulation.ambient_dim()) +
+                       ", but the manifold lies in R^" + std::to_string(d));
+  if (!(bending.reach > 0) || !std::isfinite(bending.reach) || !std::isfinite(bending.curvature_radius))
+    throw InvalidInput("bending: reach must be positive and finite");
+  if (seed_points.empty() || seed_points.size() % d != 0)
+    throw InvalidInput("seed_points: need at least one point with " + std::to_string(d) + " coordinates");
+  for (const double x : seed_points)
+    if (!std::isfinite(x)) throw InvalidInput("seed_points: coordinates must be finite");
+  if (!(options.displacement_fraction > 0) || !(options.displacement_fraction < 1))
+    throw InvalidInput("displacement_fraction must be between 0 and 1");
+}
+
+}  // namespace
+
+TriangulateResult triangulate(const Submanifold& manifold, const Bending& bending,
+                              const coxeter::Triangulation& triangulation, std::span<const double> seed_points,
+                              const TriangulateOptions& options) {
+  check(manifold, bending, triangulation, seed_points, options);
+  const int d = manifold.ambient_dim();
+  const Oracle oracle(manifold, bending);
+  const double width = coxeter::simplex_width(triangulation);
+  const Watch watch;
+  TriangulateResult result;
+  const char* phase = "perturb";
+  const NearSimplices* working = nullptr;
+  const auto keep_going = [&] {
+    if (result.stopped) return false;
+    if (watch.seconds() > options.time_limit) {
+      result.stopped = true;
+      result.stop_reason = "time_limit";
+    } else if (options.progress && !options.progress({phase, working->num_simplices(), watch.seconds()})) {
+      result.stopped = true;
+      result.stop_reason = "cancelled";
+    }
+    return !result.stopped;
+  };
+
+  // Feet of the seeds, then the hit simplices nearest to them.
+  std::vector<double> feet;
+  for (std::size_t i = 0; i < seed_points.size() / d; ++i) {
+    std::vector<double> point(d), frame(static_cast<std::size_t>(d) * d);
+    FootErrors errors;
+    if (manifold.project(seed_points.subspan(i * d, d), point, frame, errors))
+      feet.insert(feet.end(), point.begin(), point.end());
+    else
+      ++result.seeds_dropped;
+  }
+  const auto find_starts = [&](NearSimplices& near) {
+    std::vector<std::uint32_t> starts;
+    for (std::size_t i = 0; i < feet.size() / d; ++i) {
+      const std::uint32_t s = perturbation::find_start(near, std::span<const double>(feet).subspan(i * d, d));
+      if (s < near.num_simplices() && std::find(starts.begin(), starts.end(), s) == starts.end()) starts.push_back(s);
+    }
+    return starts;
+  };
+
+  // Displacements.
+  perturbation::DisplacementMap displacements(d);
+  {
+    NearSimplices near(triangulation, oracle);
+    working = &near;
+    const std::vector<std::uint32_t> starts = find_starts(near);
+    if (options.scheme == TriangulateOptions::Scheme::kRepair && !starts.empty()) {
+      perturbation::RepairOptions repair_options;
+      repair_options.max_displacement = options.displacement_fraction * width / 2;
+      repair_options.rng_seed = options.rng_seed;
+      repair_options.max_rounds = options.max_rounds;
+      repair_options.max_simplices = options.max_simplices;
+      repair_options.keep_going = keep_going;
+      result.rounds = perturbation::repair(near, starts, repair_options).rounds;
+    }
+    std::vector<std::uint32_t> moved;
+    for (std::uint32_t v = 0; v < near.num_vertices(); ++v)
+      if (std::any_of(near.displacement(v), near.displacement(v) + d, [](double u) { return u != 0; }))
+        moved.push_back(v);
+    std::sort(moved.begin(), moved.end(), [&](std::uint32_t a, std::uint32_t b) {
+      const auto za = near.lattice_vertex(a), zb = near.lattice_vertex(b);
+      return std::lexicographical_compare(za.begin(), za.end(), zb.begin(), zb.end());
+    });
+    for (const std::uint32_t v : moved)
+      displacements.set(coxeter::LatticeVertex(near.lattice_vertex(v)), {near.displacement(v), std::size_t(d)});
+    result.oracle_evaluations += near.oracle_calls();
+  }
+  result.seconds_perturb = watch.seconds();
+
+  // Everything from here on depends on the displacements alone, not on how they were found.
+  phase = "certify";
+  NearSimplices near(triangulation, oracle);
+  working = &near;
+  near.displace(displacements);
+  const std::vector<std::uint32_t> starts = find_starts(near);
+  NearTraceOptions trace_options;
+  trace_options.max_simplices = options.max_simplices;
+  const NearTrace trace = perturbation::trace_near(near, starts, trace_options);
+  if (!trace.complete && !result.stopped) {
+    result.stopped = true;
+    result.stop_reason = "max_simplices";
+  }
+  result.certificate = perturbation::certify(near, trace, width);
+  result.seconds_certify = watch.seconds() - result.seconds_perturb;
+
+  const bool certified = result.certificate.verdict == perturbation::Verdict::kCertified;
+  if (!trace.simplices.empty()) {
+    NearComplex cut = near_complex(near, trace, certified);
+    result.complex = std::move(cut.complex);
+    if (result.certificate.not_certified == 0) result.hausdorff_bound = cut.distance_bound;
+  }
+  std::vector<char> is_near(near.num_vertices(), 0);
+  for (const std::uint32_t s : trace.simplices)
+    for (int q = 0; q <= d; ++q) {
+      const std::uint32_t v = near.corners(s)[q];
+      if (is_near[v]) continue;
+      is_near[v] = 1;
+      ++result.vertices_near;
+      result.vertices_moved += std::any_of(near.displacement(v), near.displacement(v) + d, [](double u) { return u != 0; });
+    }
+  result.seeds_used = starts.size();
+  result.seeds_merged = feet.size() / d - starts.size();
+  result.oracle_evaluations += near.oracle_calls();
+  result.displacements = std::move(displacements);
+  result.seconds_complex = watch.seconds() - result.seconds_perturb - result.seconds_certify;
+  return result;
+}
+
+}  // namespace whitney

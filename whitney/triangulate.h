@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <coxeter/triangulation.h>
+#include <perturbation/repair.h>
+#include <perturbation/verdict.h>
+#include <whitney/cell_complex.h>
+#include <whitney/submanifold.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace whitney {
+
+struct TriangulateProgress {
+  const char* phase = "";     ///< "perturb", "certify", "complex"
+  std::size_t simplices = 0;  ///< d-simplices looked at so far
+  double seconds = 0;         ///< since the beginning
+};
+
+struct TriangulateOptions {
+  /// How the vertices are displaced: not at all, or by repair (see perturbation/repair.h).
+  enum class Scheme { kNone, kRepair };
+  Scheme scheme = Scheme::kRepair;
+  /// No vertex moves further than this fraction of half the width of the d-simplices; below 1, so that the
+  /// triangulation stays embedded.
+  double displacement_fraction = 0.999;
+  std::uint64_t rng_seed = 1;
+  int max_rounds = 16;
+  std::size_t max_simplices = 20'000'000;  ///< of dimension d; about 1 KB each
+  double time_limit = std::numeric_limits<double>::infinity();  ///< seconds, for the search of displacements
+  /// Called now and then; returning false stops.
+  std::function<bool(const TriangulateProgress&)> progress;
+};
+
+/// Whitney's complex of a submanifold and what is proved of it.
+struct TriangulateResult {
+  /// The cells M ∩ mu, replaced by polytopes: a j-cell for every (k+j)-simplex of T~ that M meets, its 0-cells points
+  /// inside the hit k-simplices. K is barycentric_subdivision(complex). Empty when nothing was found.
+  CellComplex complex;
+  perturbation::CertificateReport certificate;
+  std::vector<perturbation::RepairRound> rounds;
+  /// Lattice vertices of the d-simplices that M meets, their displacements, and the d-simplices.
+  std::size_t vertices_near = 0, vertices_moved = 0;
+  /// A bound of the distance of every point of K from M (a length), and, when certified, of every point of M from K:
+  /// the closest-point projection of K then covers M. Infinite when some simplex is not certified.
+  double hausdorff_bound = std::numeric_limits<double>::infinity();
+  std::size_t seeds_used = 0, seeds_merged = 0, seeds_dropped = 0;
+  std::size_t oracle_evaluations = 0;
+  bool stopped = false;  ///< by max_simplices, time_limit or progress
+  std::string stop_reason = "none";
+  double seconds_perturb = 0, seconds_certify = 0, seconds_complex = 0;
+  /// The perturbed triangulation: displacements of the lattice vertices that moved.
+  perturbation::DisplacementMap displacements{1};
+};
+
+/// Whitney's construction: displaces the vertices of the triangulation until every simplex that M meets is certified,
+/// proves that in interval arithmetic, and cuts out the complex. Source: BKW20; the certificate: perturbation/README.md.
+///
+/// seed_points: m x d; a trace starts near the foot of each. The result is about the components of M that they lie on.
+/// bending: what is known of M (reach and curvature); the verdict rests on it. The triangulation may be of any type
+/// with d <= 20.
+/// Throws InvalidInput on sizes that do not fit or values that are not finite, OracleError when the oracle fails.
+TriangulateResult triangulate(const Submanifold& manifold, const Bending& bending,
+                              const coxeter::Triangulation& triangulation, std::span<const double> seed_points,
+                              const TriangulateOptions& options = {});
+
+}  // namespace whitney
