@@ -66,6 +66,8 @@ class Repairer {
       result.complete = trace.complete;
       result.all_accepted = trace.complete && failing_.empty();
       if (result.all_accepted || !trace.complete || round >= options_.max_rounds) return result;
+      if (polish && static_cast<double>(failing_.size()) > options_.hopeless * static_cast<double>(record.simplices))
+        return result;
       round_ = round;
       if (polish) {
         reached_.assign(near_.num_simplices(), 0);

@@ -21,6 +21,8 @@ struct RepairOptions {
   double first_target = 1.3, target = 1.1;
   int sweeps = 4;
   int max_rounds = 12;  ///< sweeps and polishes together
+  /// Give up when after the sweeps more than this fraction of the simplices fails.
+  double hopeless = 0.35;
   /// Trials of the polish per failing simplex and round.
   int trials = 60;
   std::size_t max_simplices = 20'000'000;

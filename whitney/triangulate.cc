@@ -2,11 +2,13 @@
 #include <coxeter/error.h>
 #include <coxeter/quality.h>
 #include <whitney/near_complex.h>
+#include <whitney/reach_claim.h>
 #include <whitney/triangulate.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <sstream>
 
 namespace whitney {
 namespace {
@@ -59,6 +61,39 @@ void check(const Submanifold& manifold, const Bending& bending, const coxeter::T
     throw InvalidInput("displacement_fraction must be between 0 and 1");
 }
 
+/// Compares the claimed reach with the feet of all vertices of the trace.
+ReachCheck compare_reach(NearSimplices& near, const NearTrace& trace) {
+  const int d = near.ambient_dim();
+  std::vector<char> seen(near.num_vertices(), 0);
+  std::vector<double> points, frames;
+  std::vector<FootErrors> errors;
+  for (const std::uint32_t s : trace.simplices)
+    for (int q = 0; q <= d; ++q) {
+      const std::uint32_t v = near.corners(s)[q];
+      perturbation::FootView foot{};
+      if (seen[v] || !near.foot(s, static_cast<std::uint16_t>(q + 1), foot)) continue;
+      seen[v] = 1;
+      points.insert(points.end(), foot.point, foot.point + d);
+      frames.insert(frames.end(), foot.frame, foot.frame + d * d);
+      errors.push_back(foot.errors);
+    }
+  ReachCheck check;
+  if (errors.size() < 2) return check;
+  const ReachVerdict verdict =
+      check_reach(FeetView{d, near.oracle().intrinsic_dim(), points, frames, errors}, near.oracle().reach());
+  check.consistent = verdict.consistent();
+  check.largest_possible = verdict.largest_possible;
+  check.p.assign(&points[verdict.p * d], &points[verdict.p * d] + d);
+  check.q.assign(&points[verdict.q * d], &points[verdict.q * d] + d);
+  return check;
+}
+
+std::string place(const std::vector<double>& x) {
+  std::ostringstream text;
+  for (std::size_t c = 0; c < x.size(); ++c) text << (c == 0 ? "(" : ", ") << x[c];
+  return text.str() + ")";
+}
+
 }  // namespace
 
 TriangulateResult triangulate(const Submanifold& manifold, const Bending& bending,
@@ -70,6 +105,7 @@ TriangulateResult triangulate(const Submanifold& manifold, const Bending& bendin
   const double width = coxeter::simplex_width(triangulation);
   const Watch watch;
   TriangulateResult result;
+  result.edge_length = triangulation.edge_length();
   const char* phase = "perturb";
   const NearSimplices* working = nullptr;
   const auto keep_going = [&] {
@@ -146,11 +182,19 @@ TriangulateResult triangulate(const Submanifold& manifold, const Bending& bendin
     result.stop_reason = "max_simplices";
   }
   result.certificate = perturbation::certify(near, trace, width);
+  if (options.check_reach) result.reach_check = compare_reach(near, trace);
+  if (!result.reach_check.consistent && result.certificate.verdict != perturbation::Verdict::kViolated) {
+    std::ostringstream text;
+    text << "the reach cannot be " << bending.reach << ": the points " << place(result.reach_check.p) << " and "
+         << place(result.reach_check.q) << " of the manifold allow at most " << result.reach_check.largest_possible;
+    result.certificate.verdict = perturbation::Verdict::kNotCertified;
+    result.certificate.reason = text.str();
+  }
   result.seconds_certify = watch.seconds() - result.seconds_perturb;
 
-  const bool certified = result.certificate.verdict == perturbation::Verdict::kCertified;
+  const bool whole = trace.complete && result.certificate.not_certified == 0;
   if (!trace.simplices.empty()) {
-    NearComplex cut = near_complex(near, trace, certified);
+    NearComplex cut = near_complex(near, trace, whole);
     result.complex = std::move(cut.complex);
     if (result.certificate.not_certified == 0) result.hausdorff_bound = cut.distance_bound;
   }

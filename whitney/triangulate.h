@@ -33,10 +33,18 @@ struct TriangulateOptions {
   double displacement_fraction = 0.999;
   std::uint64_t rng_seed = 1;
   int max_rounds = 16;
+  bool check_reach = true;  ///< compare the claimed reach with all feet seen
   std::size_t max_simplices = 20'000'000;  ///< of dimension d; about 1 KB each
   double time_limit = std::numeric_limits<double>::infinity();  ///< seconds, for the search of displacements
   /// Called now and then; returning false stops.
   std::function<bool(const TriangulateProgress&)> progress;
+};
+
+/// What the feet of the vertices near M say of the reach that was claimed (see reach_claim.h).
+struct ReachCheck {
+  bool consistent = true;
+  double largest_possible = std::numeric_limits<double>::infinity();  ///< the largest reach that they leave possible
+  std::vector<double> p, q;                                           ///< d each: the two points of M that say so
 };
 
 /// Whitney's complex of a submanifold and what is proved of it.
@@ -44,7 +52,9 @@ struct TriangulateResult {
   /// The cells M ∩ mu, replaced by polytopes: a j-cell for every (k+j)-simplex of T~ that M meets, its 0-cells points
   /// inside the hit k-simplices. K is barycentric_subdivision(complex). Empty when nothing was found.
   CellComplex complex;
+  /// A claimed reach that the feet contradict makes the verdict "not certified".
   perturbation::CertificateReport certificate;
+  ReachCheck reach_check;
   std::vector<perturbation::RepairRound> rounds;
   /// Lattice vertices of the d-simplices that M meets, their displacements, and the d-simplices.
   std::size_t vertices_near = 0, vertices_moved = 0;
@@ -55,6 +65,7 @@ struct TriangulateResult {
   std::size_t oracle_evaluations = 0;
   bool stopped = false;  ///< by max_simplices, time_limit or progress
   std::string stop_reason = "none";
+  double edge_length = 0;  ///< of the triangulation (a length)
   double seconds_perturb = 0, seconds_certify = 0, seconds_complex = 0;
   /// The perturbed triangulation: displacements of the lattice vertices that moved.
   perturbation::DisplacementMap displacements{1};

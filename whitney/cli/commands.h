@@ -12,7 +12,7 @@
 namespace whitney::cli {
 
 /// Exit statuses of the program.
-enum ExitStatus { kDone = 0, kBadInput = 1, kStopped = 2, kNotAManifold = 3 };
+enum ExitStatus { kDone = 0, kBadInput = 1, kStopped = 2, kNotAManifold = 3, kNotCertified = 3 };
 
 struct TraceArguments {
   std::string problem;
@@ -27,6 +27,24 @@ struct TraceArguments {
   bool quiet = false;
 };
 int run_trace(const TraceArguments& arguments);
+
+struct TriangulateArguments {
+  std::string problem;
+  std::vector<std::string> outputs;
+  std::string stats;
+  std::string ambient;
+  std::optional<double> edge_length;
+  bool auto_refine = false;
+  std::string scheme = "repair";
+  int max_rounds = 16;
+  std::string mesh = "barycentric";
+  std::size_t max_simplices = 20'000'000;
+  double time_limit = std::numeric_limits<double>::infinity();
+  std::string projection = "pca";
+  std::string color_by;
+  bool quiet = false;
+};
+int run_triangulate(const TriangulateArguments& arguments);
 
 struct CheckArguments {
   std::string mesh;

@@ -16,7 +16,8 @@ int main(int argc, char** argv) {
       "Triangulates smooth submanifolds of R^d of any dimension and codimension.\n"
       "\n"
       "Exit status: 0 done; 1 bad input, named with file, key and reason; 2 stopped by a limit, what was\n"
-      "found is written; 3 the mesh checked is not a manifold. No file is ever left half written.",
+      "found is written; 3 the mesh checked is not a manifold, or the triangulation is not certified (it is\n"
+      "written, with what stands in the way). No file is ever left half written.",
       "whitney"};
   app.set_version_flag("--version", std::string("whitney ") + WHITNEY_VERSION);
   app.require_subcommand(1);
@@ -56,6 +57,58 @@ int main(int argc, char** argv) {
   trace_command->add_option("--color-by", trace.color_by, "variable that colours the vertices (.ply, .pov)");
   trace_command->add_flag("-q,--quiet", trace.quiet, "print nothing but errors");
 
+  TriangulateArguments triangulate;
+  CLI::App* triangulate_command = app.add_subcommand(
+      "triangulate",
+      "Whitney's construction: an embedded complex with a proof that it is homeomorphic to the manifold");
+  triangulate_command
+      ->add_option("PROBLEM", triangulate.problem,
+                   "problem file (JSON): a named manifold, a parametrization or equations; see README")
+      ->required();
+  triangulate_command
+      ->add_option("-o,--output", triangulate.outputs,
+                   "mesh file, format by extension: .off .ply .obj .stl .vtu .mesh .noff .pov; repeatable")
+      ->take_all()
+      ->expected(1);
+  triangulate_command->add_option("--stats", triangulate.stats,
+                                  "write the certificate, counts, topology and timings to this JSON file");
+  triangulate_command->add_option("--ambient", triangulate.ambient,
+                                  "write the subdivided ambient simplices around the manifold, d <= 4 (.vtu, .mesh, "
+                                  ".noff); the complex is part of it");
+  triangulate_command
+      ->add_option("--edge-length", triangulate.edge_length,
+                   "longest edge of the ambient simplices, a length; overrides the problem file (default there: "
+                   "searched for, from the reach downwards)")
+      ->check(CLI::PositiveNumber);
+  triangulate_command->add_flag("--auto-refine", triangulate.auto_refine,
+                                "halve the edge length until the result is certified (at most 8 attempts)");
+  triangulate_command
+      ->add_option("--scheme", triangulate.scheme, "how the vertices of the triangulation are displaced")
+      ->check(CLI::IsMember({"repair", "none"}))
+      ->capture_default_str();
+  triangulate_command->add_option("--max-rounds", triangulate.max_rounds, "rounds of the repair")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  triangulate_command
+      ->add_option("--mesh", triangulate.mesh,
+                   "what is written: barycentric (K), pulled (no new vertices), or cells (the polygons, n <= 2)")
+      ->check(CLI::IsMember({"pulled", "barycentric", "cells"}))
+      ->capture_default_str();
+  triangulate_command
+      ->add_option("--max-simplices", triangulate.max_simplices, "stop after so many d-simplices")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  triangulate_command
+      ->add_option("--time-limit", triangulate.time_limit, "stop displacing vertices after so many seconds")
+      ->check(CLI::NonNegativeNumber);
+  triangulate_command
+      ->add_option("--project", triangulate.projection,
+                   "how R^d, d > 3, becomes R^3: pca, or three variables i,j,k (numbers from 1, or names)")
+      ->capture_default_str();
+  triangulate_command->add_option("--color-by", triangulate.color_by,
+                                  "variable that colours the vertices (.ply, .pov)");
+  triangulate_command->add_flag("-q,--quiet", triangulate.quiet, "print nothing but errors");
+
   CheckArguments check;
   CLI::App* check_command =
       app.add_subcommand("check", "Topology of a mesh file: is it a manifold, Euler characteristic, homology");
@@ -69,7 +122,9 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? kDone : kBadInput;
   }
   try {
-    return trace_command->parsed() ? run_trace(trace) : run_check(check);
+    if (trace_command->parsed()) return run_trace(trace);
+    if (triangulate_command->parsed()) return run_triangulate(triangulate);
+    return run_check(check);
   } catch (const std::bad_alloc&) {
     std::cerr << "whitney: out of memory; a larger --edge-length or --max-simplices helps\n";
   } catch (const std::exception& error) {

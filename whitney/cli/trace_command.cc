@@ -3,6 +3,7 @@
 #include <whitney/cell_complex.h>
 #include <whitney/cli/commands.h>
 #include <whitney/cli/report.h>
+#include <whitney/cli/session.h>
 #include <whitney/find_seeds.h>
 #include <whitney/io/atomic_file.h>
 #include <whitney/io/problem.h>
@@ -14,55 +15,13 @@
 #include <whitney/trace.h>
 
 #include <algorithm>
-#include <chrono>
-#include <csignal>
 #include <cstdio>
-#include <filesystem>
 #include <iostream>
 
 #include <coxeter/error.h>
 
 namespace whitney::cli {
 namespace {
-
-volatile std::sig_atomic_t interrupted = 0;
-
-/// Seconds since the last call.
-class Stopwatch {
- public:
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    const double seconds = std::chrono::duration<double>(now - last_).count();
-    last_ = now;
-    return seconds;
-  }
-
- private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
-
-/// What can be refused before the work begins is refused before the work begins.
-void check_outputs(const TraceArguments& arguments, int intrinsic_dim) {
-  std::vector<std::string> files = arguments.outputs;
-  if (!arguments.stats.empty()) files.push_back(arguments.stats);
-  for (const std::string& file : files) {
-    std::filesystem::path folder = std::filesystem::path(file).parent_path();
-    if (folder.empty()) folder = ".";
-    if (!std::filesystem::is_directory(folder)) throw FileError(file + ": there is no folder " + folder.string());
-    if (access(folder.c_str(), W_OK) != 0) throw FileError(file + ": no permission to write into " + folder.string());
-  }
-  for (const std::string& file : arguments.outputs) check_mesh_format(file, intrinsic_dim, arguments.mesh == "cells");
-}
-
-std::optional<Box> box_of(const Problem& problem) {
-  if (problem.box.empty()) return std::nullopt;
-  Box box;
-  for (const auto& [lower, upper] : problem.box) {
-    box.lower.push_back(lower);
-    box.upper.push_back(upper);
-  }
-  return box;
-}
 
 double edge_length_of(const TraceArguments& arguments, const Problem& problem, const std::optional<Box>& box) {
   if (arguments.edge_length) return *arguments.edge_length;
@@ -97,11 +56,15 @@ int run_trace(const TraceArguments& arguments) {
   Stopwatch watch;
   Statistics statistics;
   const Problem problem = read_problem(arguments.problem);
+  if (!problem.function)
+    throw InvalidInput(arguments.problem +
+                       ": this manifold is given by its closest points, not as a zero set: use `whitney triangulate`");
+  const Function& function = *problem.function;
   const int d = problem.ambient_dim(), k = problem.codim(), n = d - k;
   if (n < 1)
     throw InvalidInput(arguments.problem + ": equations: " + std::to_string(k) + " equations in " + std::to_string(d) +
                        " variables leave no manifold of dimension 1 or more");
-  check_outputs(arguments, n);
+  check_outputs(arguments.outputs, arguments.stats, n, arguments.mesh == "cells");
   const std::optional<Box> box = box_of(problem);
   const double edge_length = edge_length_of(arguments, problem, box);
   const coxeter::Triangulation triangulation = make_triangulation(problem.triangulation, d, edge_length);
@@ -114,7 +77,7 @@ int run_trace(const TraceArguments& arguments) {
   const bool searched = seed_points.empty();
   if (searched) {
     if (!box) throw InvalidInput(arguments.problem + ": give seed_points, or a box in which they can be searched for");
-    found = find_seeds(problem.function, *box);
+    found = find_seeds(function, *box);
     seed_points = found.points;
   }
   statistics.seconds["seeds"] = watch.lap();
@@ -124,17 +87,18 @@ int run_trace(const TraceArguments& arguments) {
   options.max_simplices = arguments.max_simplices;
   options.time_limit = arguments.time_limit;
   double reported = 0;
+  std::optional<InterruptGuard> guard(std::in_place);
+  const InterruptGuard& interrupt = *guard;
   options.progress = [&](const TraceProgress& progress) {
     if (live && progress.seconds > reported + 0.5) {
       reported = progress.seconds;
       std::fprintf(stderr, "\r%zu simplices, %zu evaluations, %.0f s ", progress.simplices, progress.evaluations,
                    progress.seconds);
     }
-    return interrupted == 0;
+    return !interrupt.interrupted();
   };
-  std::signal(SIGINT, [](int) { interrupted = 1; });
-  const TraceResult traced = trace(problem.function, triangulation, seed_points, options);
-  std::signal(SIGINT, SIG_DFL);
+  const TraceResult traced = trace(function, triangulation, seed_points, options);
+  guard.reset();
   if (live && reported > 0) std::fprintf(stderr, "\n");
   statistics.seconds["trace"] = watch.lap();
   if (traced.num_simplices() == 0)
@@ -145,7 +109,7 @@ int run_trace(const TraceArguments& arguments) {
 
   SimplicialMesh mesh =
       arguments.mesh == "barycentric" ? barycentric_subdivision(complex) : pulled_subdivision(complex);
-  mesh = orient_by_function(std::move(mesh), problem.function).mesh;
+  mesh = orient_by_function(std::move(mesh), function).mesh;
   const bool polygons = arguments.mesh == "cells";
   PolygonMesh cells;
   if (polygons) cells = polygon_mesh(complex);
@@ -162,17 +126,7 @@ int run_trace(const TraceArguments& arguments) {
   write_options.projection = arguments.projection;
   write_options.variables = problem.variables;
   write_options.color_by = arguments.color_by;
-  std::string failed;  // one file that cannot be written must not cost the others
-  for (const std::string& file : arguments.outputs) {
-    try {
-      if (polygons)
-        write_mesh(file, cells, write_options);
-      else
-        write_mesh(file, mesh, write_options);
-    } catch (const std::exception& error) {
-      failed += (failed.empty() ? "" : "\n") + std::string(error.what());
-    }
-  }
+  const std::string failed = write_outputs(arguments.outputs, mesh, polygons ? &cells : nullptr, write_options);
   statistics.seconds["write"] = watch.lap();
 
   statistics.ambient_dim = d;

@@ -6,9 +6,32 @@
 #include <nlohmann/json.hpp>
 
 namespace whitney {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json certificate_json(const CertificateStatistics& c) {
+  Json out;
+  out["verdict"] = c.verdict;
+  out["margin_min"] = c.margin_min;
+  out["margin_median"] = c.margin_median;
+  out["displacement_max"] = c.displacement_max;
+  out["rounds"] = c.rounds;
+  out["vertices_near"] = c.vertices_near;
+  out["vertices_moved"] = c.vertices_moved;
+  out["reach"] = c.reach;
+  out["curvature_radius"] = c.curvature_radius;
+  out["reach_source"] = c.reach_source;
+  out["edge_length_over_reach"] = c.edge_length_over_reach;
+  out["hausdorff_bound"] = c.hausdorff_bound ? Json(*c.hausdorff_bound) : Json(nullptr);
+  out["reason"] = c.reason.empty() ? Json(nullptr) : Json(c.reason);
+  out["witness"] = c.witness ? Json(*c.witness) : Json(nullptr);
+  return out;
+}
+
+}  // namespace
 
 std::string to_json(const Statistics& s) {
-  using Json = nlohmann::ordered_json;
   const Topology& t = s.topology;
   Json out;
   out["ambient_dim"] = s.ambient_dim;
@@ -36,7 +59,7 @@ std::string to_json(const Statistics& s) {
   } else {
     out["homology_z"] = nullptr;
   }
-  out["certificate"] = nullptr;
+  out["certificate"] = s.certificate ? certificate_json(*s.certificate) : Json(nullptr);
   out["oracle_evaluations"] = s.oracle_evaluations;
   out["seed_evaluations"] = s.seed_evaluations;
   out["distinct_vertices"] = s.distinct_vertices;

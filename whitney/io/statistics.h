@@ -11,6 +11,21 @@
 
 namespace whitney {
 
+/// What `whitney triangulate` proves.
+struct CertificateStatistics {
+  std::string verdict;                         ///< "certified", "violated", "not certified"
+  double margin_min = 0, margin_median = 0;    ///< certified above 1
+  double displacement_max = 0;                 ///< largest displacement / edge length
+  std::size_t rounds = 0;                      ///< of the search of displacements
+  std::size_t vertices_near = 0, vertices_moved = 0;
+  double reach = 0, curvature_radius = 0;      ///< lengths
+  std::string reach_source;                    ///< "proven", "caller", "estimated"
+  double edge_length_over_reach = 0;
+  std::optional<double> hausdorff_bound;       ///< between K and M (a length); null when it is not proved
+  std::string reason;                          ///< why it is not certified
+  std::optional<std::vector<double>> witness;  ///< where: d coordinates
+};
+
 /// What a run of the program reports; the keys of the JSON file are the names of the members.
 struct Statistics {
   int ambient_dim = 0, intrinsic_dim = 0;
@@ -24,6 +39,7 @@ struct Statistics {
   std::size_t exact_decisions = 0;               ///< pivots decided by exact arithmetic
   std::map<std::string, double> seconds;         ///< by phase
   std::string stop_reason = "none";
+  std::optional<CertificateStatistics> certificate{};
 };
 
 /// JSON text, one key a line, ending in a newline. Adds peak_rss_bytes of this process.

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <coxeter/error.h>
+#include <unistd.h>
+#include <whitney/cli/commands.h>
+#include <whitney/cli/report.h>
+#include <whitney/cli/session.h>
+#include <whitney/estimate_bending.h>
+#include <whitney/find_seeds.h>
+#include <whitney/io/atomic_file.h>
+#include <whitney/io/problem.h>
+#include <whitney/io/statistics.h>
+#include <whitney/io/write_mesh.h>
+#include <whitney/orientation.h>
+#include <whitney/scale_search.h>
+#include <whitney/subdivide.h>
+#include <whitney/topology.h>
+
+#include <cstdio>
+#include <iostream>
+#include <sstream>
+
+namespace whitney::cli {
+namespace {
+
+using perturbation::Verdict;
+
+std::vector<double> seeds_of(Problem& problem, const std::string& file) {
+  if (problem.seed_points.empty() && !problem.submanifold) {
+    const std::optional<Box> box = box_of(problem);
+    if (!box) throw InvalidInput(file + ": give seed_points, or a box in which they can be searched for");
+    const FoundSeeds found = find_seeds(*problem.function, *box);
+    const auto d = static_cast<std::size_t>(problem.ambient_dim());
+    for (std::size_t at = 0; at + d <= found.points.size(); at += d)
+      problem.seed_points.emplace_back(&found.points[at], &found.points[at] + d);
+    if (problem.seed_points.empty()) throw InvalidInput(file + ": no point of the manifold was found in the box");
+  }
+  std::vector<double> seeds;
+  for (const auto& point : problem.seed_points) seeds.insert(seeds.end(), point.begin(), point.end());
+  return seeds;
+}
+
+CertificateStatistics certificate_statistics(const TriangulateResult& result, const Bending& bending) {
+  const perturbation::CertificateReport& report = result.certificate;
+  CertificateStatistics out;
+  out.verdict = to_string(report.verdict);
+  out.margin_min = report.margin_min;
+  out.margin_median = report.margin_median;
+  out.displacement_max = report.displacement_max / result.edge_length;
+  out.rounds = result.rounds.size();
+  out.vertices_near = result.vertices_near;
+  out.vertices_moved = result.vertices_moved;
+  out.reach = bending.reach;
+  out.curvature_radius = bending.curvature_radius;
+  out.reach_source = to_string(bending.source);
+  out.edge_length_over_reach = result.edge_length / bending.reach;
+  if (report.verdict == Verdict::kCertified) out.hausdorff_bound = result.hausdorff_bound;
+  out.reason = report.reason;
+  if (report.witness) out.witness = report.witness->barycentre;
+  return out;
+}
+
+/// What a person wants to know first.
+std::string describe_verdict(const TriangulateResult& result, const Bending& bending) {
+  const perturbation::CertificateReport& report = result.certificate;
+  std::ostringstream text;
+  text.precision(4);
+  text << to_string(report.verdict) << ": ";
+  if (report.verdict == Verdict::kCertified) {
+    text << "the complex is homeomorphic to the manifold, given its reach " << bending.reach << " ("
+         << to_string(bending.source) << ")";
+    if (bending.source == Bending::Source::kEstimated) text << ": an estimate, so this is no proof";
+    text << "\n  margins: worst " << report.margin_min << ", median " << report.margin_median << "; Hausdorff distance at most "
+         << result.hausdorff_bound << "\n";
+  } else {
+    text << report.reason << "\n";
+    text << "  margins: worst " << report.margin_min << " (" << (report.worst_is_separation ? "separation" : "transversality")
+         << "), median " << report.margin_median << "; above 1 is certified\n";
+    if (result.reach_check.consistent)
+      text << "  next: --edge-length " << result.edge_length / 2 << ", or --auto-refine\n";
+  }
+  text << "  edge length / reach " << result.edge_length / bending.reach << ", " << report.simplices << " simplices of R^"
+       << result.complex.ambient_dim << " meet the manifold, " << result.vertices_moved << " of " << result.vertices_near
+       << " vertices moved, by at most " << report.displacement_max / result.edge_length << " edge lengths\n";
+  return text.str();
+}
+
+}  // namespace
+
+int run_triangulate(const TriangulateArguments& arguments) {
+  Stopwatch watch;
+  Statistics statistics;
+  Problem problem = read_problem(arguments.problem);
+  const int d = problem.ambient_dim(), k = problem.codim(), n = d - k;
+  if (n < 1) throw InvalidInput(arguments.problem + ": no manifold of dimension 1 or more");
+  const bool polygons = arguments.mesh == "cells";
+  check_outputs(arguments.outputs, arguments.stats, n, polygons);
+  const bool talk = !arguments.quiet, live = talk && isatty(STDERR_FILENO);
+
+  std::vector<double> seeds = seeds_of(problem, arguments.problem);
+  const Submanifold manifold = submanifold_of(problem);
+  if (seeds.empty()) seeds = manifold.seed_points();
+  std::optional<Bending> bending = manifold.bending();
+  if (!bending) bending = estimate_bending(manifold).bending;
+  statistics.seconds["seeds"] = watch.lap();
+
+  InterruptGuard guard;
+  ScaleSearchOptions options;
+  options.triangulate.scheme =
+      arguments.scheme == "none" ? TriangulateOptions::Scheme::kNone : TriangulateOptions::Scheme::kRepair;
+  options.triangulate.rng_seed = problem.triangulation.rng_seed;
+  options.triangulate.max_rounds = arguments.max_rounds;
+  options.triangulate.max_simplices = arguments.max_simplices;
+  options.triangulate.time_limit = arguments.time_limit;
+  double reported = 0;
+  options.triangulate.progress = [&](const TriangulateProgress& progress) {
+    if (live && (progress.seconds > reported + 0.5 || progress.seconds < reported)) {
+      reported = progress.seconds;
+      std::fprintf(stderr, "\r%s: %zu simplices, %.0f s ", progress.phase, progress.simplices, progress.seconds);
+    }
+    return !guard.interrupted();
+  };
+  options.first_edge_length = arguments.edge_length ? arguments.edge_length : problem.triangulation.edge_length;
+  if (options.first_edge_length && arguments.auto_refine) options.factor = 0.5;
+  if (options.first_edge_length && !arguments.auto_refine) options.max_attempts = 1;
+  const ScaleSearchResult search = search_scale(
+      manifold, *bending, [&](double L) { return make_triangulation(problem.triangulation, d, L); }, seeds, options);
+  const TriangulateResult& result = search.result;
+  if (live && reported > 0) std::fprintf(stderr, "\n");
+  statistics.seconds["perturb"] = result.seconds_perturb;
+  statistics.seconds["certify"] = result.seconds_certify;
+  statistics.seconds["complex"] = result.seconds_complex;
+  watch.lap();
+  if (result.certificate.simplices == 0)
+    throw InvalidInput(arguments.problem + ": no simplex near the " + std::to_string(seeds.size() / d) +
+                       " seed points meets the manifold (" + std::to_string(result.seeds_dropped) +
+                       " of them have no closest point on it)");
+
+  SimplicialMesh mesh =
+      arguments.mesh == "pulled" ? pulled_subdivision(result.complex) : barycentric_subdivision(result.complex);
+  mesh = orient(std::move(mesh)).mesh;
+  PolygonMesh cells;
+  if (polygons) cells = polygon_mesh(result.complex);
+  statistics.seconds["mesh"] = watch.lap();
+  statistics.topology = topology_of(mesh);
+  if (polygons) {
+    statistics.topology.f_vector.clear();
+    for (int j = 0; j <= n; ++j) statistics.topology.f_vector.push_back(result.complex.num_cells(j));
+  }
+  statistics.seconds["topology"] = watch.lap();
+
+  MeshWriteOptions write_options;
+  write_options.projection = arguments.projection;
+  write_options.variables = problem.variables;
+  write_options.color_by = arguments.color_by;
+  const std::string failed = write_outputs(arguments.outputs, mesh, polygons ? &cells : nullptr, write_options);
+  statistics.seconds["write"] = watch.lap();
+
+  statistics.ambient_dim = d;
+  statistics.intrinsic_dim = n;
+  statistics.edge_length = result.edge_length;
+  statistics.num_seeds_used = result.seeds_used;
+  statistics.num_seeds_merged = result.seeds_merged;
+  statistics.num_seeds_dropped = result.seeds_dropped;
+  for (int j = 0; j <= n; ++j) statistics.simplices_per_dim[k + j] = result.complex.num_cells(j);
+  statistics.oracle_evaluations = result.oracle_evaluations;
+  statistics.distinct_vertices = result.vertices_near;
+  statistics.stop_reason = result.stop_reason;
+  statistics.certificate = certificate_statistics(result, *bending);
+  if (!arguments.stats.empty()) write_file(arguments.stats, to_json(statistics));
+
+  if (talk) {
+    for (std::size_t i = 0; i + 1 < search.attempts.size(); ++i)
+      std::cout << "edge length " << search.attempts[i].edge_length << ": " << to_string(search.attempts[i].verdict) << " ("
+                << search.attempts[i].not_certified << " of " << search.attempts[i].simplices << " simplices), refined\n";
+    std::cout << "R^" << d << ", edge length " << result.edge_length << ", "
+              << result.seconds_perturb + result.seconds_certify + result.seconds_complex << " s\n"
+              << describe_verdict(result, *bending) << describe(statistics.topology, n);
+    if (result.stopped) std::cout << "stopped early (" << result.stop_reason << ")\n";
+    for (const std::string& file : arguments.outputs) std::cout << "written: " << file << "\n";
+    if (!arguments.stats.empty()) std::cout << "written: " << arguments.stats << "\n";
+  }
+  if (!failed.empty()) throw FileError(failed);
+  if (result.stopped) return kStopped;
+  return result.certificate.verdict == Verdict::kCertified ? kDone : kNotCertified;
+}
+
+}  // namespace whitney::cli
