@@ -82,7 +82,7 @@ Certificate::Certificate(int ambient_dim, int intrinsic_dim, double reach, doubl
   corner_.resize(k);
 }
 
-Margins Certificate::evaluate(const double* const* vertices, const FootView& foot) {
+Margins Certificate::evaluate(const double* const* vertices, const FootView& foot, double enough) {
   foot_ = foot;
   Margins margins;
   double radius = 0;
@@ -130,11 +130,10 @@ Margins Certificate::evaluate(const double* const* vertices, const FootView& foo
   for (std::size_t f = 0; f < low_faces_.num(); ++f) {
     const std::uint8_t* face = low_faces_[f];
     for (int j = 0; j < k_; ++j) corner_[j] = &scaled_[face[j] * k_];
-    separation_[f] = min_norm_(corner_.data(), k_, k_, &low_lambda_[f * k_], &nearest_[f * k_]);
+    separation_[f] = min_norm_(corner_.data(), k_, k_, enough, &low_lambda_[f * k_], &nearest_[f * k_]);
     least = std::min(least, separation_[f]);
-    separation_[f] = std::sqrt(separation_[f]);
   }
-  margins.separation = std::sqrt(least);
+  margins.separation = least;
   margins.transversality = radius > 0 ? curvature_radius_ / radius : std::numeric_limits<double>::infinity();
   find_hits(margins);
   return margins;

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -25,7 +26,8 @@ namespace whitney::perturbation {
 
 /// What one foot says about one d-simplex. Floating point: a guide, not a proof (see certificate_proof.h).
 struct Margins {
-  /// (A+): the least distance of 0 from hull{P_i / h_i : v_i in phi} over the (k-1)-faces phi.
+  /// (A+): the least distance of 0 from hull{P_i / h_i : v_i in phi} over the (k-1)-faces phi; a lower bound of it where
+  /// it is above what was enough for the caller.
   double separation = 0;
   /// (B): the least of s_min(N^T U) R_c / r over the hit k-faces sigma, U an orthonormal basis of the directions of
   /// sigma; infinite when none is hit.
@@ -67,7 +69,9 @@ class Certificate {
   const VertexSubsets& hit_candidates() const { return faces_; }  ///< the k-faces
 
   /// The margins of the simplex with the given vertices (m + 1 pointers to d numbers) at one foot.
-  Margins evaluate(const double* const* vertices, const FootView& foot);
+  /// Distances in (A+) are exact (up to rounding) below `enough`, and known to be at least that otherwise.
+  Margins evaluate(const double* const* vertices, const FootView& foot,
+                   double enough = std::numeric_limits<double>::infinity());
 
   /// A (k-1)-face that is too close to the plane, and in which direction its vertices leave it.
   struct Push {
@@ -78,7 +82,7 @@ class Certificate {
     const double* direction;  ///< d: a unit vector of the normal space
   };
   /// Calls visit(const Push&) for every (k-1)-face whose separation is below target, for the arguments of the last
-  /// call of evaluate. When the face touches the plane, `fallback` (k numbers) gives the direction.
+  /// call of evaluate, whose `enough` was at least target. When the face touches the plane, `fallback` (k numbers) gives the direction.
   template <class Visitor>
   void for_each_push(double target, std::span<const double> fallback, Visitor visit) {
     for (std::size_t f = 0; f < low_faces_.num(); ++f)

@@ -101,6 +101,7 @@ Proof CertificateProver::prove(const double* const* vertices, const FootView& fo
   const int num = certificate_.simplex_dim() + 1;
   Proof proof;
   const Margins guess = certificate_.evaluate(vertices, foot);
+  proof.margins = guess;
   if (!guess.single_sheet) return proof;
 
   const auto fail = [&](Proof::Outcome outcome, const std::uint8_t* face, int size) {

@@ -22,6 +22,7 @@ struct Proof {
   Outcome outcome = Outcome::kSingleSheet;
   /// The vertices (positions in the simplex) of the face that failed; empty for kFrame and kSingleSheet.
   std::vector<int> face;
+  Margins margins;  ///< floating point, exact up to rounding
   /// Facets that are hit, as in Margins, and the number of hit k-faces; set when proven.
   std::uint32_t hit_facets = 0;
   int num_hit = 0;

@@ -45,36 +45,98 @@ bool least_in_affine_hull(const double* gram, int m, const int* active, int s, d
   return true;
 }
 
+/// x = sum lambda_i points_i; returns abs(x).
+double combine(const double* const* points, int m, int k, const double* lambda, double* x) {
+  double squared = 0;
+  for (int c = 0; c < k; ++c) {
+    double sum = 0;
+    for (int i = 0; i < m; ++i) sum += lambda[i] * points[i][c];
+    x[c] = sum;
+    squared += sum * sum;
+  }
+  return std::sqrt(squared);
+}
+
+void closest_of_segment(const double* a, const double* b, int k, double* lambda) {
+  double along = 0, length = 0;
+  for (int c = 0; c < k; ++c) {
+    const double edge = a[c] - b[c];
+    along += a[c] * edge;
+    length += edge * edge;
+  }
+  const double t = length > 0 ? std::clamp(along / length, 0.0, 1.0) : 0.0;
+  lambda[0] = 1 - t;
+  lambda[1] = t;
+}
+
+/// By the regions of the triangle's plane: a corner, an edge or the inside is closest. Ericson, Real-Time Collision
+/// Detection (2005), Sect. 5.1.5, with the origin as the point.
+void closest_of_triangle(const double* const* points, int k, double* lambda) {
+  const double *a = points[0], *b = points[1], *c = points[2];
+  double d1 = 0, d2 = 0, d3 = 0, d4 = 0, d5 = 0, d6 = 0;
+  for (int i = 0; i < k; ++i) {
+    const double ab = b[i] - a[i], ac = c[i] - a[i];
+    d1 -= ab * a[i];
+    d2 -= ac * a[i];
+    d3 -= ab * b[i];
+    d4 -= ac * b[i];
+    d5 -= ab * c[i];
+    d6 -= ac * c[i];
+  }
+  const auto set = [&](double x, double y, double z) {
+    lambda[0] = x;
+    lambda[1] = y;
+    lambda[2] = z;
+  };
+  if (d1 <= 0 && d2 <= 0) return set(1, 0, 0);
+  if (d3 >= 0 && d4 <= d3) return set(0, 1, 0);
+  const double vc = d1 * d4 - d3 * d2;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return set(1 - d1 / (d1 - d3), d1 / (d1 - d3), 0);
+  if (d6 >= 0 && d5 <= d6) return set(0, 0, 1);
+  const double vb = d5 * d2 - d1 * d6;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return set(1 - d2 / (d2 - d6), 0, d2 / (d2 - d6));
+  const double va = d3 * d6 - d5 * d4;
+  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
+    const double t = (d4 - d3) / ((d4 - d3) + (d5 - d6));
+    return set(0, 1 - t, t);
+  }
+  const double inverse = 1 / (va + vb + vc);
+  set(1 - vb * inverse - vc * inverse, vb * inverse, vc * inverse);
+}
+
 }  // namespace
 
-double MinNormPoint::operator()(const double* const* points, int m, int k, double* lambda, double* x) {
+double MinNormPoint::operator()(const double* const* points, int m, int k, double enough, double* lambda, double* x) {
   if (m == 1) {
     lambda[0] = 1;
     std::copy_n(points[0], k, x);
-    return dot(x, x, k);
+    return std::sqrt(dot(x, x, k));
   }
+  // The mean is a good guess of the direction for faces that are far away, and they are most.
+  double length = 0;
+  for (int c = 0; c < k; ++c) {
+    double sum = 0;
+    for (int i = 0; i < m; ++i) sum += points[i][c];
+    x[c] = sum;
+    length += sum * sum;
+  }
+  double least = dot(x, points[0], k);
+  for (int i = 1; i < m; ++i) least = std::min(least, dot(x, points[i], k));
+  length = std::sqrt(length);
+  if (least >= enough * length && length > 0) return least / length;
+
   if (m == 2) {
-    const double *a = points[0], *b = points[1];
-    double along = 0, length = 0;
-    for (int c = 0; c < k; ++c) {
-      const double edge = a[c] - b[c];
-      along += a[c] * edge;
-      length += edge * edge;
-    }
-    const double t = length > 0 ? std::clamp(along / length, 0.0, 1.0) : 0.0;
-    lambda[0] = 1 - t;
-    lambda[1] = t;
-    double norm = 0;
-    for (int c = 0; c < k; ++c) {
-      x[c] = (1 - t) * a[c] + t * b[c];
-      norm += x[c] * x[c];
-    }
-    return norm;
+    closest_of_segment(points[0], points[1], k, lambda);
+    return combine(points, m, k, lambda, x);
   }
-  return wolfe(points, m, k, lambda, x);
+  if (m == 3) {
+    closest_of_triangle(points, k, lambda);
+    return combine(points, m, k, lambda, x);
+  }
+  return wolfe(points, m, k, enough, lambda, x);
 }
 
-double MinNormPoint::wolfe(const double* const* points, int m, int k, double* lambda, double* x) {
+double MinNormPoint::wolfe(const double* const* points, int m, int k, double enough, double* lambda, double* x) {
   gram_.resize(static_cast<std::size_t>(m) * m);
   factor_.resize(gram_.size());
   weights_.resize(m);
@@ -104,6 +166,14 @@ double MinNormPoint::wolfe(const double* const* points, int m, int k, double* la
         least = value;
         enter = i;
       }
+    }
+    double lowest = norm;  // the least of x . points[i]
+    if (enter >= 0) lowest = least;
+    if (lowest > 0 && lowest * lowest >= enough * enough * norm) {
+      std::fill_n(x, k, 0.0);
+      for (int a = 0; a < s; ++a)
+        for (int c = 0; c < k; ++c) x[c] += weights_[a] * points[active_[a]][c];
+      return lowest / std::sqrt(norm);
     }
     if (enter < 0 || std::find(active_.begin(), active_.begin() + s, enter) != active_.begin() + s) break;
     active_[s] = enter;
@@ -150,11 +220,7 @@ double MinNormPoint::wolfe(const double* const* points, int m, int k, double* la
   double sum = 0;
   for (int a = 0; a < s; ++a) sum += std::max(0.0, weights_[a]);
   for (int a = 0; a < s; ++a) lambda[active_[a]] = std::max(0.0, weights_[a]) / sum;
-  std::fill_n(x, k, 0.0);
-  for (int i = 0; i < m; ++i)
-    if (lambda[i] > 0)
-      for (int c = 0; c < k; ++c) x[c] += lambda[i] * points[i][c];
-  return dot(x, x, k);
+  return combine(points, m, k, lambda, x);
 }
 
 }  // namespace whitney::perturbation

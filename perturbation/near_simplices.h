@@ -20,7 +20,8 @@ namespace whitney::perturbation {
 
 /// What is known of one d-simplex at the present positions of its vertices.
 struct Evaluation {
-  /// The margin of the best foot tried (certified above 1), without the conditions on its neighbours.
+  /// The margin of the best foot tried (certified above 1), without the conditions on its neighbours. A lower bound
+  /// where it is above what was enough.
   float margin = 0;
   float separation = 0, transversality = 0;  ///< (A+) and (B) of that foot
   /// Facets that the tangent plane of the best foot hits: bit q for the one opposite to v_q.
@@ -90,7 +91,8 @@ class NearSimplices {
   void remember(std::uint32_t s, const Evaluation& evaluation);
   /// The certificate evaluated for simplex s at one of its feet; false when that foot does not exist. The certificate()
   /// then tells the details.
-  bool evaluate_at(std::uint32_t s, std::uint16_t candidate, Margins& margins);
+  bool evaluate_at(std::uint32_t s, std::uint16_t candidate, Margins& margins,
+                   double enough = std::numeric_limits<double>::infinity());
   Certificate& certificate() { return certificate_; }
   /// The foot of a candidate for s: 0 the barycentre, 1 + i the vertex v_i, then the midpoints of the edges in
   /// lexicographic order. False when the oracle has none. The view lives until the next call of a member.

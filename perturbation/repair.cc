@@ -122,7 +122,7 @@ class Repairer {
     const Evaluation& evaluation = near_.evaluate(s, target);
     if (evaluation.margin >= target) return;
     Margins margins;
-    if (!near_.evaluate_at(s, evaluation.candidate, margins) || !margins.single_sheet) return;
+    if (!near_.evaluate_at(s, evaluation.candidate, margins, target) || !margins.single_sheet) return;
     draw_fallback(near_.corners(s)[0]);
     steps_.assign((d_ + 1) * static_cast<std::size_t>(d_), 0.0);
     near_.certificate().for_each_push(target, fallback_, [&](const Certificate::Push& push) {
@@ -230,7 +230,7 @@ class Repairer {
       moving_.clear();
       trial_steps_.clear();
       const std::uint32_t* corner = near_.corners(s);
-      if (near_.evaluate_at(s, evaluation.candidate, margins) && margins.single_sheet &&
+      if (near_.evaluate_at(s, evaluation.candidate, margins, options_.target) && margins.single_sheet &&
           margins.separation < options_.accept && attempt % 4 != 3) {
         // The worst face: pushed (by more, then by less than needed), or all of it or one vertex at random.
         draw_fallback(corner[0]);

@@ -21,6 +21,22 @@ bool invert(double* M, double* X, int k) {
     X[3] = M[0] / determinant;
     return true;
   }
+  if (k == 3) {
+    const double a = M[4] * M[8] - M[5] * M[7], b = M[5] * M[6] - M[3] * M[8], c = M[3] * M[7] - M[4] * M[6];
+    const double determinant = M[0] * a + M[1] * b + M[2] * c;
+    if (determinant == 0) return false;
+    const double r = 1 / determinant;
+    X[0] = r * a;
+    X[1] = r * (M[2] * M[7] - M[1] * M[8]);
+    X[2] = r * (M[1] * M[5] - M[2] * M[4]);
+    X[3] = r * b;
+    X[4] = r * (M[0] * M[8] - M[2] * M[6]);
+    X[5] = r * (M[2] * M[3] - M[0] * M[5]);
+    X[6] = r * c;
+    X[7] = r * (M[1] * M[6] - M[0] * M[7]);
+    X[8] = r * (M[0] * M[4] - M[1] * M[3]);
+    return true;
+  }
   std::fill_n(X, k * k, 0.0);
   for (int i = 0; i < k; ++i) X[i * k + i] = 1;
   for (int c = 0; c < k; ++c) {

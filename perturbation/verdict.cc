@@ -103,11 +103,6 @@ CertificateReport certify(NearSimplices& near, const NearTrace& trace, double em
   for (const std::uint32_t s : trace.simplices) {
     in_trace[s] = 1;
     const Evaluation evaluation = near.evaluate(s, 1.0, true);
-    margins.push_back(evaluation.margin);
-    if (evaluation.margin < report.margin_min) {
-      report.margin_min = evaluation.margin;
-      report.worst_is_separation = evaluation.separation <= evaluation.transversality;
-    }
     Proof proof;
     const auto try_foot = [&](int candidate) {
       FootView foot{};
@@ -121,6 +116,12 @@ CertificateReport certify(NearSimplices& near, const NearTrace& trace, double em
     // A margin above 1 whose proof fails is a matter of rounding or of the oracle's errors: another foot may do.
     for (int candidate = 0; !done && evaluation.margin > 1 && candidate < num_feet; ++candidate)
       done = try_foot(candidate);
+    const auto margin = static_cast<float>(proof.margins.margin());
+    margins.push_back(margin);
+    if (margin < report.margin_min) {
+      report.margin_min = margin;
+      report.worst_is_separation = proof.margins.separation <= proof.margins.transversality;
+    }
     if (done) {
       state[s] = {proof.hit_facets, true};
     } else {
