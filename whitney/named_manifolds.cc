@@ -80,7 +80,10 @@ const Entry kManifolds[] = {
     {"chair", [](const auto& p) { return chair(Arguments("chair", p, {"ambient_dim"}).integer("ambient_dim", 3)); }},
     {"cyclo_heptane", [](const auto& p) { return Arguments("cyclo_heptane", p, {}), cyclo_heptane(); }},
     {"flat_torus",
-     [](const auto& p) { return flat_torus(Arguments("flat_torus", p, {"ambient_dim"}).integer("ambient_dim", 4)); }},
+     [](const auto& p) {
+       const Arguments a("flat_torus", p, {"ambient_dim", "r1", "r2"});
+       return flat_torus(a.integer("ambient_dim", 4), a.real("r1", 1), a.real("r2", 1));
+     }},
     {"pentagon_linkage", [](const auto& p) { return Arguments("pentagon_linkage", p, {}), pentagon_linkage(); }},
     {"so3_vectors", [](const auto& p) { return Arguments("so3_vectors", p, {}), so3_vectors(); }},
     {"sphere",
@@ -126,10 +129,16 @@ NamedManifold sphere(int intrinsic_dim, int ambient_dim, double radius) {
   return embedded(std::move(result), ambient_dim, 1.5 * radius);
 }
 
-NamedManifold flat_torus(int ambient_dim) {
+NamedManifold flat_torus(int ambient_dim, double r1, double r2) {
   require(ambient_dim >= 4, "flat_torus: ambient_dim must be at least 4, not " + std::to_string(ambient_dim));
-  return embedded({parse_equations(coordinates(4), Strings{"x1^2+x2^2-1", "x3^2+x4^2-1"}), {1, 0, 1, 0}, cube(4, 2)},
-                  ambient_dim, 2);
+  for (const double r : {r1, r2})
+    require(r > 0 && std::isfinite(r * r) && r * r > 0, "flat_torus: r1 and r2 must be positive");
+  const double half_width = 2 * std::max(r1, r2);
+  return embedded(
+      {parse_equations(coordinates(4), Strings{"x1^2+x2^2-" + number(r1) + "^2", "x3^2+x4^2-" + number(r2) + "^2"}),
+       {r1, 0, r2, 0},
+       cube(4, half_width)},
+      ambient_dim, half_width);
 }
 
 NamedManifold chair(int ambient_dim) {

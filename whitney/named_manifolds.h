@@ -24,8 +24,8 @@ struct NamedManifold {
 /// The sphere S^n: chi = 1 + (-1)^n, H_0 = H_n = Z.
 NamedManifold sphere(int intrinsic_dim, int ambient_dim, double radius = 1);
 
-/// x_1^2 + x_2^2 = 1, x_3^2 + x_4^2 = 1, the other coordinates 0. d >= 4. A torus: chi 0, H_1 = Z^2.
-NamedManifold flat_torus(int ambient_dim = 4);
+/// x_1^2 + x_2^2 = r1^2, x_3^2 + x_4^2 = r2^2, the other coordinates 0. d >= 4. A torus: chi 0, H_1 = Z^2.
+NamedManifold flat_torus(int ambient_dim = 4, double r1 = 1, double r2 = 1);
 
 /// (x^2+y^2+z^2-0.8)^2 - 0.4 ((z-1)^2-2x^2) ((z+1)^2-2y^2) = 0, the other coordinates 0. d >= 3.
 /// The surface "chair" of SoCG 2021, Fig. 3: connected, genus 3, chi -4.
@@ -54,10 +54,10 @@ NamedManifold two_spheres();
 NamedManifold torus_of_revolution(double R = 2, double r = 1);
 
 /// The manifold of a problem file: its name, as above, and values for the parameters that have them: sphere
-/// (intrinsic_dim, ambient_dim, radius), flat_torus and chair (ambient_dim), torus_of_revolution (R, r).
-/// Parameters that are not given take the defaults above; sphere: 2 and intrinsic_dim + 1.
-/// Throws InvalidInput on an unknown name or parameter (the message lists the known ones), and on manifolds that are no
-/// regular zero sets and wait for other sources.
+/// (intrinsic_dim, ambient_dim, radius), flat_torus (ambient_dim, r1, r2), chair (ambient_dim), torus_of_revolution (R,
+/// r). Parameters that are not given take the defaults above; sphere: 2 and intrinsic_dim + 1. Throws InvalidInput on
+/// an unknown name or parameter (the message lists the known ones), and on manifolds that are no regular zero sets and
+/// wait for other sources.
 NamedManifold named_manifold(std::string_view name, const std::map<std::string, double>& parameters = {});
 
 /// The names that named_manifold knows, sorted.

@@ -97,6 +97,10 @@ int run_trace(const TraceArguments& arguments) {
   Stopwatch watch;
   Statistics statistics;
   const Problem problem = read_problem(arguments.problem);
+  if (!problem.function)
+    throw InvalidInput(arguments.problem +
+                       ": this manifold is given by its closest points, not as a zero set: use `whitney triangulate`");
+  const Function& function = *problem.function;
   const int d = problem.ambient_dim(), k = problem.codim(), n = d - k;
   if (n < 1)
     throw InvalidInput(arguments.problem + ": equations: " + std::to_string(k) + " equations in " + std::to_string(d) +
@@ -114,7 +118,7 @@ int run_trace(const TraceArguments& arguments) {
   const bool searched = seed_points.empty();
   if (searched) {
     if (!box) throw InvalidInput(arguments.problem + ": give seed_points, or a box in which they can be searched for");
-    found = find_seeds(problem.function, *box);
+    found = find_seeds(function, *box);
     seed_points = found.points;
   }
   statistics.seconds["seeds"] = watch.lap();
@@ -133,7 +137,7 @@ int run_trace(const TraceArguments& arguments) {
     return interrupted == 0;
   };
   std::signal(SIGINT, [](int) { interrupted = 1; });
-  const TraceResult traced = trace(problem.function, triangulation, seed_points, options);
+  const TraceResult traced = trace(function, triangulation, seed_points, options);
   std::signal(SIGINT, SIG_DFL);
   if (live && reported > 0) std::fprintf(stderr, "\n");
   statistics.seconds["trace"] = watch.lap();
@@ -145,7 +149,7 @@ int run_trace(const TraceArguments& arguments) {
 
   SimplicialMesh mesh =
       arguments.mesh == "barycentric" ? barycentric_subdivision(complex) : pulled_subdivision(complex);
-  mesh = orient_by_function(std::move(mesh), problem.function).mesh;
+  mesh = orient_by_function(std::move(mesh), function).mesh;
   const bool polygons = arguments.mesh == "cells";
   PolygonMesh cells;
   if (polygons) cells = polygon_mesh(complex);

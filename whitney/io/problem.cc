@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <coxeter/error.h>
 #include <whitney/expression.h>
+#include <whitney/find_seeds.h>
+#include <whitney/implicit_manifold.h>
 #include <whitney/io/problem.h>
 #include <whitney/named_manifolds.h>
+#include <whitney/named_submanifolds.h>
+#include <whitney/parametric_manifold.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -182,13 +186,57 @@ Function read_equations(const Entry& variables_entry, const std::vector<std::str
   }
 }
 
-NamedManifold read_named(const Entry& entry) {
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// Equations, closest point, or both: what is known under this name.
+void read_named(const Entry& entry, Problem& problem) {
   std::map<std::string, double> parameters;
   for (const std::string& key : entry.object_keys()) {
     if (key != "name") parameters[key] = entry.at(key.c_str()).number();
   }
   const std::string name = entry.at("name").string();
-  return entry.located([&] { return named_manifold(name, parameters); });
+  entry.located([&] {
+    const bool has_foot = contains(submanifold_names(), name), has_equations = contains(manifold_names(), name);
+    if (!has_foot && !has_equations) {
+      try {
+        named_manifold(name, parameters);  // says what it waits for, or that nobody knows it
+      } catch (const InvalidInput& error) {
+        std::string list;
+        for (const std::string& known : submanifold_names()) list += (list.empty() ? "" : ", ") + known;
+        throw InvalidInput(std::string(error.what()) + "; for `whitney triangulate`: " + list);
+      }
+    }
+    if (has_equations) {
+      NamedManifold manifold = named_manifold(name, parameters);
+      problem.function = std::move(manifold.function);
+      problem.box = std::move(manifold.box);
+    }
+    if (has_foot) problem.submanifold = named_submanifold(name, parameters);
+  });
+}
+
+std::array<double, 2> read_side(const Entry& side) {
+  const std::vector<double> bounds = side.numbers(2);
+  if (!(bounds[0] < bounds[1])) side.fail("the lower bound must be less than the upper one");
+  if (!std::isfinite(bounds[1] - bounds[0])) side.fail("the width is beyond the range of double");
+  return {bounds[0], bounds[1]};
+}
+
+Submanifold read_parametrization(const Entry& entry) {
+  entry.expect_keys({"parameters", "domain", "map"});
+  std::vector<std::string> parameters, map;
+  for (const Entry& element : entry.at("parameters").list()) parameters.push_back(element.string());
+  entry.at("parameters").located([&] { check_variables(parameters); });
+  std::vector<std::array<double, 2>> domain;
+  for (const Entry& side : entry.at("domain").list(parameters.size())) domain.push_back(read_side(side));
+  const std::vector<Entry> elements = entry.at("map").list();
+  for (const Entry& element : elements) {
+    map.push_back(element.string());
+    element.located([&] { compile(parameters, std::span(&map.back(), 1)); });
+  }
+  return entry.at("map").located([&] { return parametric_manifold(parameters, std::move(domain), map); });
 }
 
 /// Uniform in [0, 1) from one word, as the words are the same on every platform and the distributions of <random> are
@@ -202,44 +250,51 @@ Problem parse_problem(std::string_view text, const std::string& name) {
   const Entry root(json, name, "");
   root.expect_keys({"variables", "equations", "inequalities", "box", "seed_points", "reach", "triangulation", "named",
                     "parametrization", "points", "charts", "projective"});
-  for (const char* key : {"inequalities", "parametrization", "points", "charts", "projective"}) {
+  for (const char* key : {"inequalities", "points", "charts", "projective"}) {
     if (root.has(key)) root.at(key).fail("this version does not support it yet");
   }
-  if (root.has("equations") == root.has("named")) {
-    root.fail("exactly one of the keys \"equations\" and \"named\" is needed");
+  if (root.has("equations") + root.has("named") + root.has("parametrization") != 1) {
+    root.fail("exactly one of the keys \"equations\", \"named\" and \"parametrization\" is needed");
   }
 
-  std::vector<std::string> variables;
-  std::optional<Problem> problem;
-  if (root.has("equations")) {
+  Problem problem;
+  if (root.has("variables") || root.has("equations")) {
     const Entry entry = root.at("variables");
-    for (const Entry& element : entry.list()) variables.push_back(element.string());
-    Function function = read_equations(entry, variables, root.at("equations"));
-    problem = Problem{Problem::Source::kEquations, std::move(variables), std::move(function)};
+    if (root.has("named")) entry.fail("a named manifold has its own variables x1 .. xd");
+    for (const Entry& element : entry.list()) problem.variables.push_back(element.string());
+    entry.located([&] { check_variables(problem.variables); });
+  }
+  if (root.has("equations")) {
+    problem.function = read_equations(root.at("variables"), problem.variables, root.at("equations"));
+  } else if (root.has("named")) {
+    problem.source = Problem::Source::kNamed;
+    read_named(root.at("named"), problem);
   } else {
-    if (root.has("variables")) root.at("variables").fail("a named manifold has its own variables x1 .. xd");
-    NamedManifold manifold = read_named(root.at("named"));
-    for (int i = 1; i <= manifold.function.ambient_dim(); ++i) variables.emplace_back("x").append(std::to_string(i));
-    problem =
-        Problem{Problem::Source::kNamed, std::move(variables), std::move(manifold.function), std::move(manifold.box)};
+    problem.source = Problem::Source::kParametrization;
+    problem.submanifold = read_parametrization(root.at("parametrization"));
+  }
+  const std::size_t d = problem.ambient_dim();
+  if (problem.variables.empty()) {
+    for (std::size_t i = 1; i <= d; ++i) problem.variables.emplace_back("x").append(std::to_string(i));
+  } else if (problem.variables.size() != d) {
+    root.at("variables").fail("the map has " + std::to_string(d) + " coordinates");
   }
 
-  const std::size_t d = problem->ambient_dim();
   if (root.has("box")) {
-    problem->box.clear();
-    for (const Entry& side : root.at("box").list(d)) {
-      const std::vector<double> bounds = side.numbers(2);
-      if (!(bounds[0] < bounds[1])) side.fail("the lower bound must be less than the upper one");
-      if (!std::isfinite(bounds[1] - bounds[0])) side.fail("the width is beyond the range of double");
-      problem->box.push_back({bounds[0], bounds[1]});
-    }
+    problem.box.clear();
+    for (const Entry& side : root.at("box").list(d)) problem.box.push_back(read_side(side));
   }
   if (root.has("seed_points")) {
-    for (const Entry& point : root.at("seed_points").list()) problem->seed_points.push_back(point.numbers(d));
+    for (const Entry& point : root.at("seed_points").list()) problem.seed_points.push_back(point.numbers(d));
   }
-  if (root.has("reach")) problem->reach = root.at("reach").positive_number();
-  if (root.has("triangulation")) problem->triangulation = read_triangulation(root.at("triangulation"), d);
-  return std::move(*problem);
+  if (root.has("reach")) problem.reach = root.at("reach").positive_number();
+  if (problem.reach && problem.submanifold) {
+    root.at("reach").located([&] {
+      problem.submanifold = with_bending(*problem.submanifold, {*problem.reach, 0, Bending::Source::kCaller});
+    });
+  }
+  if (root.has("triangulation")) problem.triangulation = read_triangulation(root.at("triangulation"), d);
+  return problem;
 }
 
 Problem read_problem(const std::string& path) {
@@ -252,6 +307,31 @@ Problem read_problem(const std::string& path) {
     throw FileError("cannot read " + path + (errno != 0 ? ": " + std::string(std::strerror(errno)) : ""));
   }
   return parse_problem(text.str(), path);
+}
+
+Submanifold submanifold_of(const Problem& problem) {
+  if (problem.submanifold) return *problem.submanifold;
+  std::vector<double> seeds;
+  ImplicitManifoldOptions options;
+  if (!problem.box.empty()) {
+    options.length_scale = 0;
+    for (const auto& [lower, upper] : problem.box)
+      options.length_scale = std::max(options.length_scale, (upper - lower) / 4);
+  }
+  for (const auto& point : problem.seed_points) seeds.insert(seeds.end(), point.begin(), point.end());
+  if (seeds.empty()) {
+    if (problem.box.empty()) throw InvalidInput("give seed_points, or a box in which they can be searched for");
+    Box box;
+    for (const auto& [lower, upper] : problem.box) {
+      box.lower.push_back(lower);
+      box.upper.push_back(upper);
+    }
+    seeds = find_seeds(*problem.function, box).points;
+    if (seeds.empty()) throw InvalidInput("no point of the manifold was found in the box");
+  }
+  Submanifold manifold = implicit_manifold(*problem.function, std::move(seeds), options);
+  if (!problem.reach) return manifold;
+  return with_bending(std::move(manifold), {*problem.reach, 0, Bending::Source::kCaller});
 }
 
 Eigen::MatrixXd random_rotation(int ambient_dim, std::uint64_t rng_seed) {

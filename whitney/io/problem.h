@@ -3,6 +3,7 @@
 
 #include <coxeter/triangulation.h>
 #include <whitney/function.h>
+#include <whitney/submanifold.h>
 
 #include <Eigen/Core>
 #include <array>
@@ -30,22 +31,24 @@ struct TriangulationSpec {
 
 /// What PROBLEM.json says (its format: docs of the program).
 struct Problem {
-  enum class Source { kEquations, kNamed };
+  enum class Source { kEquations, kNamed, kParametrization };
 
   Source source = Source::kEquations;
-  std::vector<std::string> variables;              ///< d names; of a named manifold: x1 .. xd
-  Function function;                               ///< f: R^d -> R^k
+  std::vector<std::string> variables{};  ///< d names; where the file gives none: x1 .. xd
+  std::optional<Function> function{};    ///< f: R^d -> R^k; kEquations, and kNamed where f is known
+  /// The closest-point oracle: kParametrization, and kNamed where it is known. With the file's reach, if it gives one.
+  std::optional<Submanifold> submanifold{};
   std::vector<std::array<double, 2>> box{};        ///< d x (lower, upper), or empty: none was given, and none is known
   std::vector<std::vector<double>> seed_points{};  ///< m x d; empty: to be searched for
   std::optional<double> reach{};                   ///< what the caller can prove, a length > 0
   TriangulationSpec triangulation{};
 
-  int ambient_dim() const { return function.ambient_dim(); }
-  int codim() const { return function.codim(); }
+  int ambient_dim() const { return function ? function->ambient_dim() : submanifold->ambient_dim(); }
+  int codim() const { return function ? function->codim() : submanifold->codim(); }
 };
 
 /// Reads a problem file: JSON with // comments. A number may be written as a constant expression, "2*pi".
-/// A named manifold brings its box, which "box" overrides.
+/// A named manifold with equations brings its box, which "box" overrides.
 /// Throws FileError when the file cannot be read, InvalidInput (file, key, reason) on everything else: text that is no
 /// JSON, unknown, repeated or missing keys, wrong sizes, lower >= upper, expressions that are not understood, and
 /// sources that this version does not have yet.
@@ -53,6 +56,11 @@ Problem read_problem(const std::string& path);
 
 /// The same from text; `name` stands for the file in messages.
 Problem parse_problem(std::string_view text, const std::string& name);
+
+/// The submanifold of a problem, with the file's reach if it gives one: problem.submanifold, or else f = 0 as an
+/// implicit manifold (whose foot is a local one), from the file's seed points or, without them, from points found in
+/// the box. Throws InvalidInput when there are neither, or none is found, and where the equations leave no dimension.
+Submanifold submanifold_of(const Problem& problem);
 
 /// The triangulation of R^d: type and edge_length (> 0, takes the place of spec.edge_length), rotated, then shifted by
 /// b: zero, given, or uniform over a cell of the lattice. The random choices depend on rng_seed and d only, on every
