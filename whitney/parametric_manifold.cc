@@ -273,8 +273,10 @@ class ParametricModel : public Submanifold::Model, public std::enable_shared_fro
       if (solver.info() != Eigen::Success) return false;
       SmallVector t = solver.solve(-gradient);
       double length = std::sqrt(std::max(0.0, t.dot(gram.selfadjointView<Eigen::Lower>() * t)));
-      // From here the next step would be of the size of roundings.
-      const bool last = convex && length <= 1e-7 * covering_radius_;
+      // From here the next step would be of the size of roundings; later where the minimum is shallow (next to the
+      // medial axis), because there the differences in the Hessian weigh more.
+      const bool sharp = t.dot(hessian.selfadjointView<Eigen::Lower>() * t) > 0.1 * length * length;
+      const bool last = convex && length <= (sharp ? 1e-7 : 1e-11) * covering_radius_;
       double moved_squared = 0;
       for (int halvings = 0;; ++halvings) {
         if (halvings == 30) return false;

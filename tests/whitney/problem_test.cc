@@ -85,10 +85,48 @@ TEST(Problem, Named) {
   EXPECT_EQ(p.variables, (std::vector<std::string>{"x1", "x2"}));
   EXPECT_EQ(p.box.size(), 2);
   std::vector<double> value(1);
-  p.function.evaluate(std::vector<double>{1, 1}, value);
+  p.function->evaluate(std::vector<double>{1, 1}, value);
   EXPECT_NEAR(value[0], 0, 1e-15);
   const Problem boxed = parse_problem(R"({"named": {"name": "trefoil"}, "box": [[-9,9],[-9,9],[-9,9],[-9,9]]})", "p");
   EXPECT_EQ(boxed.box[3][1], 9);
+}
+
+TEST(Problem, ClosestPoints) {
+  // Known both as a zero set and by its closest point.
+  const Problem torus = parse_problem(R"({"named": {"name": "flat_torus", "r2": 0.5}})", "p");
+  ASSERT_TRUE(torus.function && torus.submanifold);
+  EXPECT_EQ(torus.submanifold->bending()->reach, 0.5);
+  std::vector<double> values(2);
+  torus.function->evaluate(torus.submanifold->seed_points(), values);
+  EXPECT_EQ(values, (std::vector<double>{0, 0}));
+  // Not a zero set. The file's reach takes the place of what is known.
+  const Problem plane = parse_problem(R"({"named": {"name": "projective_plane_projectors"}, "reach": 0.5})", "p");
+  EXPECT_FALSE(plane.function);
+  EXPECT_EQ(plane.ambient_dim(), 5);
+  EXPECT_EQ(plane.codim(), 3);
+  EXPECT_EQ(plane.variables.size(), 5);
+  EXPECT_EQ(plane.submanifold->bending()->reach, 0.5);
+  EXPECT_EQ(plane.submanifold->bending()->source, Bending::Source::kCaller);
+
+  const std::string circle =
+      R"x("parametrization": {"parameters": ["t"], "domain": [[0,"2*pi"]], "map": ["3*cos(t)","3*sin(t)"]})x";
+  const Problem p = parse_problem(R"({"variables": ["a","b"], "reach": 3, )" + circle + "}", "p");
+  EXPECT_EQ(p.source, Problem::Source::kParametrization);
+  EXPECT_EQ(p.variables, (std::vector<std::string>{"a", "b"}));
+  std::vector<double> point(2), frame(4);
+  FootErrors errors;
+  ASSERT_TRUE(p.submanifold->project(std::vector<double>{0, 4}, point, frame, errors));
+  EXPECT_NEAR(point[1], 3, 1e-14);
+
+  // Equations give an implicit manifold when asked for one; seeds are searched for.
+  const Problem sphere = parse_problem(with(R"("box": [[-2,2],[-2,2]], "reach": 1)"), "p");
+  EXPECT_FALSE(sphere.submanifold);
+  const Submanifold implicit = submanifold_of(sphere);
+  EXPECT_FALSE(implicit.seed_points().empty());
+  EXPECT_EQ(implicit.bending()->reach, 1);
+  ASSERT_TRUE(implicit.project(std::vector<double>{0.3, 0.4}, point, frame, errors));
+  EXPECT_NEAR(point[0], 0.6, 1e-14);
+  EXPECT_THROW(submanifold_of(parse_problem(with(""), "p")), InvalidInput);
 }
 
 TEST(Problem, Examples) {
@@ -98,12 +136,12 @@ TEST(Problem, Examples) {
     ++count;
     SCOPED_TRACE(entry.path());
     const Problem p = read_problem(entry.path());
-    EXPECT_EQ(p.box.size(), p.ambient_dim());
+    if (p.function) EXPECT_EQ(p.box.size(), p.ambient_dim());
     EXPECT_GT(p.triangulation.edge_length.value_or(0), 0);
     const coxeter::Triangulation t = make_triangulation(p.triangulation, p.ambient_dim(), *p.triangulation.edge_length);
     EXPECT_NEAR(t.edge_length(), *p.triangulation.edge_length, 1e-12);
   }
-  EXPECT_GE(count, 9);
+  EXPECT_GE(count, 14);
 }
 
 TEST(Problem, ErrorsNameFileKeyAndReason) {
@@ -134,7 +172,23 @@ TEST(Problem, ErrorsNameFileKeyAndReason) {
   expect(R"({"named": {}})", "named", "\"name\"");
   expect(R"({"named": "chair"})", "named", "object");
   expect(R"({"named": {"name": "chairs"}})", "named", "cyclo_heptane");
-  expect(R"({"named": {"name": "klein_bottle"}})", "named", "whitney triangulate");
+  expect(R"({"named": {"name": "klein_bottles"}})", "named", "klein_bottle,");
+  expect(R"({"named": {"name": "klein_quartic"}})", "named", "charts");
+  expect(R"({"named": {"name": "klein_bottle", "r": 1}})", "named", "none");
+  expect(R"({"parametrization": {}})", "parametrization", "\"parameters\"");
+  expect(R"({"parametrization": {"parameters": ["u"], "domain": [[0,1],[0,1]], "map": ["u","u"]}})",
+         "parametrization.domain", "expected 1");
+  expect(R"({"parametrization": {"parameters": ["u"], "domain": [[1,0]], "map": ["u","u"]}})",
+         "parametrization.domain[0]", "less than");
+  expect(R"({"parametrization": {"parameters": ["u"], "domain": [[0,1]], "map": ["u","u+w"]}})",
+         "parametrization.map[1]", "unknown name 'w'");
+  expect(R"({"parametrization": {"parameters": ["u"], "domain": [[0,1]], "map": ["u"]}})", "parametrization.map",
+         "n < d");
+  expect(R"({"parametrization": {"parameters": ["u"], "domain": [[0,1]], "map": ["1","2"]}})", "parametrization.map",
+         "constant");
+  expect(R"x({"variables": ["x"],
+              "parametrization": {"parameters": ["u"], "domain": [[0,7]], "map": ["cos(u)","sin(u)"]}})x",
+         "variables", "2 coordinates");
   expect(R"({"named": {"name": "sphere", "radius": "r"}})", "named.radius", "unknown name 'r'");
   expect(R"({"named": {"name": "sphere", "radius": -1}})", "named", "positive");
   expect(with(R"("box": [[0,1]])"), "box", "expected 2 elements, not 1");
@@ -162,7 +216,7 @@ TEST(Problem, ErrorsNameFileKeyAndReason) {
   expect(with(R"("triangulation": {"edge_length": "-pi"})"), "triangulation.edge_length", "positive");
   expect(with(R"("triangulation": {"rng_seed": -1})"), "triangulation.rng_seed", "integer");
   expect(with(R"("triangulation": {"rng_seed": 1.5})"), "triangulation.rng_seed", "integer");
-  for (const char* key : {"inequalities", "parametrization", "points", "charts", "projective"}) {
+  for (const char* key : {"inequalities", "points", "charts", "projective"}) {
     expect(with("\"" + std::string(key) + "\": {}"), key, "does not support");
     expect("{\"" + std::string(key) + "\": []}", key, "does not support");
   }
