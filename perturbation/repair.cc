@@ -36,7 +36,7 @@ class Random {
 class Repairer {
  public:
   Repairer(NearSimplices& near, std::span<const std::uint32_t> starts, const RepairOptions& options)
-      : near_(near), starts_(starts), options_(options), d_(near.ambient_dim()), step_(d_), fallback_(near.codim()) {
+      : near_(near), starts_(starts.begin(), starts.end()), options_(options), d_(near.ambient_dim()), step_(d_), fallback_(near.codim()) {
     if (!(options.max_displacement > 0)) throw InvalidInput("max_displacement must be positive");
   }
 
@@ -50,6 +50,7 @@ class Repairer {
       trace_options.with_midpoints = polish;
       trace_options.max_simplices = options_.max_simplices;
       trace_options.keep_going = options_.keep_going;
+      keep_starts_hit();
       const NearTrace trace = trace_near(near_, starts_, trace_options);
       RepairRound record;
       record.simplices = trace.simplices.size();
@@ -86,6 +87,17 @@ class Repairer {
   }
 
  private:
+  /// A start that moves have taken off the manifold would end the trace at once: the nearest hit simplex replaces it.
+  void keep_starts_hit() {
+    for (std::uint32_t& s : starts_) {
+      if (near_.evaluate(s, 1).is_hit()) continue;
+      std::vector<double> centre(d_, 0.0);
+      for (int q = 0; q <= d_; ++q)
+        for (int c = 0; c < d_; ++c) centre[c] += near_.position(near_.corners(s)[q])[c] / (d_ + 1);
+      if (const std::uint32_t other = find_start(near_, centre); other < near_.num_simplices()) s = other;
+    }
+  }
+
   bool going(RepairResult& result) {
     if (++count_ % 64 != 0 || !options_.keep_going || options_.keep_going()) return true;
     result.complete = false;
@@ -272,7 +284,7 @@ class Repairer {
   }
 
   NearSimplices& near_;
-  std::span<const std::uint32_t> starts_;
+  std::vector<std::uint32_t> starts_;
   const RepairOptions& options_;
   int d_, round_ = 0;
   std::size_t count_ = 0;
