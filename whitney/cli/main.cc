@@ -63,13 +63,22 @@ int main(int argc, char** argv) {
   check_command->add_option("--stats", check.stats, "write the results to this JSON file");
   check_command->add_flag("-q,--quiet", check.quiet, "print nothing but errors");
 
+  ParametersArguments parameters;
+  CLI::App* parameters_command = app.add_subcommand(
+      "parameters", "The constants of Boissonnat, Kachanovich and Wintraecken, as printed and corrected, in log10");
+  parameters_command->add_option("--ambient", parameters.ambient_dim, "dimension d of the ambient space")->required();
+  parameters_command->add_option("--intrinsic", parameters.intrinsic_dim, "dimension n of the manifold, 1 <= n < d")
+      ->required();
+  parameters_command->add_option("--stats", parameters.stats, "write the constants to this JSON file");
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kDone : kBadInput;
   }
   try {
-    return trace_command->parsed() ? run_trace(trace) : run_check(check);
+    if (parameters_command->parsed()) return run_parameters(parameters);
+    return check_command->parsed() ? run_check(check) : run_trace(trace);
   } catch (const std::bad_alloc&) {
     std::cerr << "whitney: out of memory; a larger --edge-length or --max-simplices helps\n";
   } catch (const std::exception& error) {
