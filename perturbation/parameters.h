@@ -12,12 +12,13 @@ namespace whitney::perturbation {
 // yardstick: L is 10^-20 reach for a plane curve. All are kept as decimal logarithms, since they leave the range of
 // double.
 //
-// What follows was not checked against the printed page, which was not at hand: the formulae come from the errata below
-// and from what independent public implementations of BKW20 quote, and were derived again where the tests say so. (1),
-// (7) and (18) hold no constant. As printed, they give the L / reach that are quoted for the paper: 10^-20, 10^-31 and
-// 10^-68 for (d, n) = (2, 1), (3, 2), (4, 2). Least certain are the factor 108 in L / reach = A / (108 (n+1)^2), which is
-// (12) but for a relative error below A^2, where 30 to 110 would give these exponents too, the exact form of (13), and
-// which of (14) .. (19) is which.
+// The printed page was not at hand: the formulae come from the list of errata and from what independent public
+// implementations of BKW20 quote, and were derived again where the tests say so. As printed, they give the L / reach
+// quoted for the paper: 10^-20, 10^-31 and 10^-68 for (d, n) = (2, 1), (3, 2), (4, 2). Up to a relative error of A^2,
+// (12) is L / reach = A / (108 (n+1)^2), where a factor from 30 to 110 would give these exponents too. Not checked
+// against the text: this factor, the form of (13), which of (14) .. (19) is which, and what (1) and (18) are. One
+// implementation takes half the mu_0 below at d = 3, which gives 10^-34. "Corrected" puts right what is listed here; no
+// claim is made that the rest of the proof was gone through.
 //
 // With x = L / reach, A = alpha_(d-n)^(4+2n) zeta^(2n), m = d-n-1, r(d) = sqrt(pi) Gamma((d+1)/2) / Gamma(d/2+1), which
 // is the volume of the unit ball over that of its equator, and S the Stirling numbers of the second kind:
@@ -30,6 +31,7 @@ namespace whitney::perturbation {
 //   (5)  rho_1 = 1 / (4 N r(d))                       r(d) / (4 N): slabs of half-width rho_1 then fill half the ball
 //   (2)  c = t mu_0 delta / (18 d L)
 //   (6)  c~ = min(c, t^2 / 24)
+//   (7)  c~ <= 1/24, which (6) implies
 //   (8)  alpha_1 = (4/3) rho_1 c~,                    (2/3) rho_1 c~: a plane M allows no more than rho_1 c~
 //        alpha_k = (2/3) rho_1 c~ alpha_(k-1)
 //   (9)  alpha_k = 2 (2 rho_1 c~ / 3)^k               (2 rho_1 c~ / 3)^k, so alpha_0 = 1

@@ -71,6 +71,11 @@ int colour(std::span<const std::int32_t> vertex);
 /// leaves as vertices move is replaced by the nearest that it meets) until every
 /// vertex of every simplex visited has its place, and leaves the displacements in `near`.
 ///
+/// Measured on unit spheres, with the largest displacement that embedding_bound() allows, min_distance 1, 64
+/// candidates and 10 seeds: every run is accepted at L = 0.6 (S^1 in R^2), 0.4 (S^2 in R^3), 0.15 (S^1 in R^3), 0.3
+/// (S^3 in R^4); 8 of 10 at 0.025 (S^1 in R^4). `repair` is, every time, at 1.0, 0.7, 0.4, 0.4 and 0.2. A span contains
+/// more than the hulls that the certificate asks to be avoided, and a vertex never yields to a later one.
+///
 /// The number of spans grows exponentially with k: up to k! S(d+1, k) for a vertex. Throws InvalidInput when that
 /// exceeds kMaxSpans (first for k = 5 at d = 7 and k = 4 at d = 8) or d > 20, unless k = 1, or when an option is out of
 /// range.
