@@ -124,7 +124,9 @@ Proof CertificateProver::prove(const double* const* vertices, const FootView& fo
         matrix[b * k + j] =
             certificate_.normal_part(high[f][j + 1])[b] - certificate_.normal_part(high[f][0])[b];
     inverses[f].resize(matrix.size());
-    if (!invert(matrix.data(), inverses[f].data(), k)) return fail(Proof::Outcome::kUndecided, high[f], high.size);
+    const bool regular = invert(matrix.data(), inverses[f].data(), k);
+    if (!regular || !std::all_of(inverses[f].begin(), inverses[f].end(), [](double x) { return std::abs(x) < 1e150; }))
+      return fail(Proof::Outcome::kUndecided, high[f], high.size);
   }
 
   const Rounding rounding;
@@ -189,7 +191,10 @@ Proof CertificateProver::prove(const double* const* vertices, const FootView& fo
   }
   const auto separates = [&](const double* e, const std::uint8_t* face, int size, const std::vector<double>& distance) {
     Interval squared(0);
-    for (int b = 0; b < k; ++b) squared += Interval(e[b]) * Interval(e[b]);
+    for (int b = 0; b < k; ++b) {
+      if (!(std::abs(e[b]) < 1e150)) return false;
+      squared += Interval(e[b]) * Interval(e[b]);
+    }
     const Interval length = sqrt(squared);
     for (int j = 0; j < size; ++j) {
       Interval along(0);

@@ -65,7 +65,7 @@ std::uint32_t find_start(NearSimplices& near, std::span<const double> x, std::si
   }
   // A trace that follows is not to see what this search happened to try.
   near.forget();
-  return found ? queue[next] : static_cast<std::uint32_t>(near.num_simplices());
+  return found ? queue[next] : queue.front();
 }
 
 }  // namespace whitney::perturbation

@@ -59,7 +59,7 @@ class Repairer {
       for (const std::uint32_t s : trace.simplices) {
         const double margin = near_.evaluate(s, 0).margin;
         record.worst_margin = std::min(record.worst_margin, margin);
-        if (margin < options_.accept) failing_.push_back(s);
+        if (margin < options_.accept || !near_.evaluate(s, 0).is_hit()) failing_.push_back(s);
       }
       record.failing = failing_.size();
       record.polish = polish;
@@ -94,7 +94,7 @@ class Repairer {
       std::vector<double> centre(d_, 0.0);
       for (int q = 0; q <= d_; ++q)
         for (int c = 0; c < d_; ++c) centre[c] += near_.position(near_.corners(s)[q])[c] / (d_ + 1);
-      if (const std::uint32_t other = find_start(near_, centre); other < near_.num_simplices()) s = other;
+      s = find_start(near_, centre);
     }
   }
 

@@ -134,7 +134,7 @@ TriangulateResult triangulate(const Submanifold& manifold, const Bending& bendin
     std::vector<std::uint32_t> starts;
     for (std::size_t i = 0; i < feet.size() / d; ++i) {
       const std::uint32_t s = perturbation::find_start(near, std::span<const double>(feet).subspan(i * d, d));
-      if (s < near.num_simplices() && std::find(starts.begin(), starts.end(), s) == starts.end()) starts.push_back(s);
+      if (std::find(starts.begin(), starts.end(), s) == starts.end()) starts.push_back(s);
     }
     return starts;
   };

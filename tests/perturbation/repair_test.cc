@@ -43,7 +43,6 @@ Trial attempt(const FootOracle& oracle, const coxeter::Triangulation& triangulat
   NearSimplices near(triangulation, oracle);
   const double width = coxeter::simplex_width(triangulation);
   const std::uint32_t start = find_start(near, seed);
-  EXPECT_LT(start, near.num_simplices());
   RepairOptions options;
   options.max_displacement = 0.499 * width;
   options.rng_seed = rng_seed;
@@ -148,11 +147,9 @@ TEST(Verdict, TooLargeAnEdgeLengthIsNeverCertified) {
   for (const double edge_length : {1.5, 2.0, 3.0, 5.0})
     for (int variant = 0; variant < 4; ++variant) {
       const SphereOracle oracle(2, 1);
-      NearSimplices near(moved_coxeter(2, edge_length, variant), oracle);
       const auto triangulation = moved_coxeter(2, edge_length, variant);
       NearSimplices fresh(triangulation, oracle);
       const std::uint32_t start = find_start(fresh, on_axis(2));
-      if (start == fresh.num_simplices()) continue;
       RepairOptions options;
       options.max_displacement = 0.499 * coxeter::simplex_width(triangulation);
       repair(fresh, std::span(&start, 1), options);

@@ -116,6 +116,14 @@ int main(int argc, char** argv) {
   check_command->add_option("--stats", check.stats, "write the results to this JSON file");
   check_command->add_flag("-q,--quiet", check.quiet, "print nothing but errors");
 
+  ParametersArguments parameters;
+  CLI::App* parameters_command = app.add_subcommand(
+      "parameters", "The constants of Boissonnat, Kachanovich and Wintraecken, as printed and corrected, in log10");
+  parameters_command->add_option("--ambient", parameters.ambient_dim, "dimension d of the ambient space")->required();
+  parameters_command->add_option("--intrinsic", parameters.intrinsic_dim, "dimension n of the manifold, 1 <= n < d")
+      ->required();
+  parameters_command->add_option("--stats", parameters.stats, "write the constants to this JSON file");
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -124,6 +132,7 @@ int main(int argc, char** argv) {
   try {
     if (trace_command->parsed()) return run_trace(trace);
     if (triangulate_command->parsed()) return run_triangulate(triangulate);
+    if (parameters_command->parsed()) return run_parameters(parameters);
     return run_check(check);
   } catch (const std::bad_alloc&) {
     std::cerr << "whitney: out of memory; a larger --edge-length or --max-simplices helps\n";
