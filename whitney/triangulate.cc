@@ -153,6 +153,16 @@ TriangulateResult triangulate(const Submanifold& manifold, const Bending& bendin
       repair_options.max_simplices = options.max_simplices;
       repair_options.keep_going = keep_going;
       result.rounds = perturbation::repair(near, starts, repair_options).rounds;
+    } else if (options.scheme == TriangulateOptions::Scheme::kSequential && !starts.empty()) {
+      perturbation::SequentialOptions sequential_options;
+      sequential_options.max_displacement = options.displacement_fraction * width / 2;
+      sequential_options.min_distance = 1;
+      sequential_options.rng_seed = options.rng_seed;
+      sequential_options.max_rounds = options.max_rounds;
+      sequential_options.max_simplices = options.max_simplices;
+      sequential_options.keep_going = keep_going;
+      for (const auto& round : perturbation::sequential(near, starts, sequential_options).rounds)
+        result.rounds.push_back({round.simplices, round.failing, round.worst_margin, false});
     }
     std::vector<std::uint32_t> moved;
     for (std::uint32_t v = 0; v < near.num_vertices(); ++v)

@@ -49,10 +49,10 @@ Trial attempt(const FootOracle& oracle, const coxeter::Triangulation& triangulat
   options.max_rounds = max_rounds;
   Trial out;
   if (max_rounds > 0) out.repair = repair(near, std::span(&start, 1), options);
-  near.forget();
+  const std::uint32_t again = find_start(near, seed);
   NearTraceOptions trace_options;
   trace_options.max_simplices = max_simplices;
-  out.trace = trace_near(near, std::span(&start, 1), trace_options);
+  out.trace = trace_near(near, std::span(&again, 1), trace_options);
   out.report = certify(near, out.trace, width);
   std::map<std::vector<int>, std::vector<double>> sorted;
   const int d = triangulation.ambient_dim();
@@ -128,7 +128,8 @@ TEST(Repair, ExactZerosAreRepaired) {
   }
   const SphereOracle circle(4, 1);
   const auto triangulation = coxeter::coxeter_a(4, 0.15);  // the circle's plane is full of lattice vertices
-  EXPECT_EQ(attempt(circle, triangulation, on_axis(4)).report.verdict, Verdict::kCertified);
+  const Trial in_plane = attempt(circle, triangulation, on_axis(4));
+  EXPECT_EQ(in_plane.report.verdict, Verdict::kCertified) << in_plane.report.reason;
 }
 
 TEST(Repair, WithoutItTheVerdictIsNotCertified) {

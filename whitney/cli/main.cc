@@ -83,8 +83,9 @@ int main(int argc, char** argv) {
   triangulate_command->add_flag("--auto-refine", triangulate.auto_refine,
                                 "halve the edge length until the result is certified (at most 8 attempts)");
   triangulate_command
-      ->add_option("--scheme", triangulate.scheme, "how the vertices of the triangulation are displaced")
-      ->check(CLI::IsMember({"repair", "none"}))
+      ->add_option("--scheme", triangulate.scheme, "how the vertices of the triangulation are displaced: repair, sequential (BKW20's own; needs smaller "
+                   "edge lengths), none")
+      ->check(CLI::IsMember({"repair", "sequential", "none"}))
       ->capture_default_str();
   triangulate_command->add_option("--max-rounds", triangulate.max_rounds, "rounds of the repair")
       ->check(CLI::NonNegativeNumber)
