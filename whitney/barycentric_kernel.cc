@@ -191,15 +191,12 @@ struct BarycentricKernel::Impl {
   }
 };
 
-// One equation: signs decide, exactly. A zero counts as negative, which is what tracing f = eps > 0 means.
+// One equation: signs decide.
 template <>
 struct BarycentricKernel::Impl<2> {
   static void factor(BarycentricKernel& kernel) {
     for (int lane = 0; lane < kLanes; ++lane) {
-      const double f0 = kernel.matrix_[2 * kLanes + lane], f1 = kernel.matrix_[3 * kLanes + lane];
-      const double a = f0 < 0 ? -f0 : f0, b = f1 < 0 ? -f1 : f1;
-      // |f_0| and |f_1| have opposite signs, so f_0 - f_1 has no cancellation; halved, it cannot overflow.
-      const double w1 = (a / 2) / (a / 2 + b / 2);
+      const double w1 = SignKernel::second_weight(kernel.matrix_[2 * kLanes + lane], kernel.matrix_[3 * kLanes + lane]);
       kernel.inverse_[lane] = 1 - w1;
       kernel.inverse_[2 * kLanes + lane] = w1;
       kernel.weight_error_[lane] = 4 * kUnitRoundoff;
@@ -208,9 +205,7 @@ struct BarycentricKernel::Impl<2> {
   }
   static void pivot(BarycentricKernel& kernel) {
     for (int lane = 0; lane < kLanes; ++lane) {
-      const bool first_positive = kernel.matrix_[2 * kLanes + lane] > 0;
-      const bool positive = kernel.candidate_[kLanes + lane] > 0;
-      kernel.leaving_[lane] = positive == first_positive ? 0 : 1;
+      kernel.leaving_[lane] = SignKernel::leaving(kernel.matrix_[2 * kLanes + lane], kernel.candidate_[kLanes + lane]);
     }
   }
 };

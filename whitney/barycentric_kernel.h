@@ -7,6 +7,18 @@
 
 namespace whitney {
 
+/// One equation, one simplex: signs decide, exactly. A zero counts as negative, which is what tracing f = eps > 0 means.
+struct SignKernel {
+  /// lambda_1 of the edge with these values at its ends, which have opposite signs; NaN if both are 0.
+  static double second_weight(double f0, double f1) {
+    const double a = f0 < 0 ? -f0 : f0, b = f1 < 0 ? -f1 : f1;
+    // f_0 - f_1 has no cancellation; halved, it cannot overflow.
+    return (a / 2) / (a / 2 + b / 2);
+  }
+  /// The index of the vertex that leaves for w.
+  static int leaving(double f0, double fw) { return (fw > 0) == (f0 > 0) ? 0 : 1; }
+};
+
 /// The linear algebra of the tracer, for kLanes k-simplices side by side (one SIMD lane each).
 ///
 /// Notation: for a k-simplex with vertices v_0..v_k, B is the (k+1) x (k+1) matrix with columns (1, f(v_q)); M = B^-1;
