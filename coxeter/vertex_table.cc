@@ -35,7 +35,8 @@ std::uint32_t VertexTable::enter(const std::int32_t* z, std::uint64_t form) {
       throw LatticeOverflow("lattice coordinate " + std::to_string(i + 1) + " has reached " + std::to_string(z[i]) +
                             ": the manifold is unbounded, or the edge length is too small for its size");
   const auto index = static_cast<std::uint32_t>(size());
-  std::uint64_t* added = records_.extend(stride_);
+  std::uint64_t* added = records_.extend(stride_ + kSlackWords);
+  records_.truncate(records_.size() - kSlackWords);
   added[0] = form;
   added[padded_dim(dim_) / 2] = added[padded_dim(dim_) / 2 - 1] = 0;
   std::memcpy(added + 1, z, dim_ * sizeof *z);

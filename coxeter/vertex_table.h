@@ -28,10 +28,11 @@ class VertexTable {
   const std::int32_t* coordinates(std::uint32_t index) const {
     return reinterpret_cast<const std::int32_t*>(record(index) + 1);
   }
-  /// The caller's values at vertex `index`, not initialised. Invalidated by insertions.
+  /// The caller's values at vertex `index`, not initialised; kSlackWords more may be read. Invalidated by insertions.
   double* values(std::uint32_t index) {
     return reinterpret_cast<double*>(&records_[index * stride_] + stride_ - num_values_);
   }
+  static constexpr int kSlackWords = 7;
   std::uint64_t form(std::uint32_t index) const { return *record(index); }
   /// weights()[j] is the form of e_j, j = 0..d.
   const std::uint64_t* weights() const { return weights_.data(); }

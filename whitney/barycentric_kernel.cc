@@ -165,14 +165,12 @@ struct BarycentricKernel::Impl {
     const Lanes rounding = gamma * magnitude;
     const Lanes y_error = 1.01 * (inverse_error * (y_max + rounding) + rounding);
 
-    const double infinity = std::numeric_limits<double>::infinity();
-    Lanes best = splat(infinity), best_y = splat(1.0), best_weight = splat(infinity);
+    // Ratios are compared by products: what this loop finds is proved below, and divisions are slow.
+    Lanes best_y{}, best_weight = splat(1.0);
     Mask leaving = Mask{} + kUndecided;
     for (int r = 0; r < n; ++r) {
       const Lanes weight = M[r * n];
-      const Lanes ratio = weight / y[r];
-      const Mask better = (y[r] > y_error) & (ratio < best);
-      best = better ? ratio : best;
+      const Mask better = (y[r] > y_error) & (weight * best_y < best_weight * y[r]);
       best_y = better ? y[r] : best_y;
       best_weight = better ? weight : best_weight;
       leaving = better ? Mask{} + r : leaving;
@@ -209,6 +207,38 @@ struct BarycentricKernel::Impl<2> {
     }
   }
 };
+
+// Eight values of eight lanes are transposed in registers: three rounds in which pairs of rows exchange halves, of ever
+// larger blocks.
+void BarycentricKernel::set_rows(const double* const* f, double* to, int stride) {
+  constexpr int kShortest = 4;  // below, one value after the other is as fast
+  const int k = codim();
+  if (k < kShortest) {
+    for (int lane = 0; lane < kLanes; ++lane)
+      for (int r = 0; r < k; ++r) to[std::size_t(r) * stride * kLanes + lane] = f[lane][r];
+    return;
+  }
+  static_assert(kLanes == 8);
+  for (int first = 0; first < k; first += kLanes) {
+    Lanes a[kLanes], b[kLanes], out[kLanes];
+    for (int lane = 0; lane < kLanes; ++lane) std::memcpy(&a[lane], f[lane] + first, sizeof a[lane]);
+    for (int i = 0; i < kLanes; i += 2) {
+      b[i] = __builtin_shufflevector(a[i], a[i + 1], 0, 8, 2, 10, 4, 12, 6, 14);
+      b[i + 1] = __builtin_shufflevector(a[i], a[i + 1], 1, 9, 3, 11, 5, 13, 7, 15);
+    }
+    for (int half = 0; half < kLanes; half += 4)
+      for (int i = half; i < half + 2; ++i) {
+        a[i] = __builtin_shufflevector(b[i], b[i + 2], 0, 1, 8, 9, 4, 5, 12, 13);
+        a[i + 2] = __builtin_shufflevector(b[i], b[i + 2], 2, 3, 10, 11, 6, 7, 14, 15);
+      }
+    for (int i = 0; i < 4; ++i) {
+      out[i] = __builtin_shufflevector(a[i], a[i + 4], 0, 1, 2, 3, 8, 9, 10, 11);
+      out[i + 4] = __builtin_shufflevector(a[i], a[i + 4], 4, 5, 6, 7, 12, 13, 14, 15);
+    }
+    for (int r = first; r < k && r < first + kLanes; ++r)
+      std::memcpy(to + std::size_t(r) * stride * kLanes, &out[r - first], sizeof out[0]);
+  }
+}
 
 BarycentricKernel::BarycentricKernel(int codim)
     : size_(codim + 1),

@@ -45,6 +45,9 @@ namespace {
 
 constexpr int kLanes = BarycentricKernel::kLanes;
 constexpr std::size_t kBatch = 64;  // simplices whose cofacets are looked at together, so that f is asked in batches
+// Neighbours in the queue have cofacets in common. A batch is every kStride-th simplex of a stretch of the queue, so that
+// most cofacets are known to be crossed before their other side is looked at.
+constexpr std::size_t kStride = 16;
 constexpr std::size_t kAhead = 32;  // simplices looked up together, so that memory is waited for once
 
 // A split of a part with s elements into two non-empty ordered halves, 2^s - 2 of them, needs a flag; s <= n + 1.
@@ -153,10 +156,11 @@ class Tracer {
   void evaluate_new_vertices();
   bool start_from(const Crossing& crossing);
   bool grow();
-  void process(std::size_t first, std::size_t count);
+  void report_waiting(std::size_t first);
+  void process(std::size_t first, std::size_t count, std::size_t stride);
   void list_cofacets_short(const Pending& simplex, std::size_t slot);
   void list_cofacets(const Pending& simplex, std::size_t slot);
-  void look_up_vertices(std::size_t first);
+  void look_up_vertices();
   void find_leaving(const Pending* simplex, int lanes);
   void prepare(const Pending& simplex, const Candidate& candidate, Step& step);
   void take(const Pending& simplex, const Candidate& candidate, const Step& step);
@@ -200,6 +204,7 @@ class Tracer {
   std::vector<std::uint32_t> numbers_;
   GrowingArray<Candidate> candidates_;
   std::size_t candidate_begin_[kBatch + 1];
+  Pending batch_[kBatch];
   // Candidates of one group that are still to be crossed, by lane.
   GrowingArray<std::uint32_t> open_;
   std::size_t open_begin_[kLanes + 1];
@@ -321,11 +326,10 @@ void Tracer<Shape>::list_cofacets(const Pending& simplex, std::size_t slot) {
 
 // Finds or enters the vertex w of every candidate: w = v_q + e(A), or v_0 - e(B) if that is below v_0.
 template <class Shape>
-void Tracer<Shape>::look_up_vertices(std::size_t first) {
+void Tracer<Shape>::look_up_vertices() {
   for (Candidate& candidate : candidates_) candidate.vertex = vertices_.guess(candidate.form);
   for (Candidate& candidate : candidates_) {
-    const std::uint32_t from =
-        pending(first + candidate.slot).vertices[candidate.new_base ? 0 : candidate.part];
+    const std::uint32_t from = batch_[candidate.slot].vertices[candidate.new_base ? 0 : candidate.part];
     const std::int32_t step = candidate.new_base ? -1 : 1;
     const bool bits_fit = d_ <= coxeter::kMaxBitsDim;
     if (bits_fit && candidate.vertex != coxeter::HashSlots::kNone &&
@@ -362,8 +366,13 @@ void Tracer<Shape>::find_leaving(const Pending* simplex, int lanes) {
     }
     return;
   }
-  for (int lane = 0; lane < lanes; ++lane)
-    for (int q = 0; q <= k_; ++q) kernel_.set_vertex(lane, q, value(simplex[lane].vertices[q]));
+  static_assert(BarycentricKernel::kSlack <= VertexTable::kSlackWords);
+  const double* values[kLanes];
+  for (int q = 0; q <= k_; ++q) {
+    // Lanes to spare repeat the first simplex.
+    for (int lane = 0; lane < kLanes; ++lane) values[lane] = value(simplex[lane < lanes ? lane : 0].vertices[q]);
+    kernel_.set_vertices(q, values);
+  }
   kernel_.factor();
   std::size_t rounds = 0;
   for (int lane = 0; lane < lanes; ++lane) {
@@ -377,8 +386,9 @@ void Tracer<Shape>::find_leaving(const Pending* simplex, int lanes) {
       const std::size_t i = open_begin_[lane] + round;
       if (i >= open_begin_[lane + 1]) continue;
       current[lane] = &candidates_[open_[i]];
-      kernel_.set_candidate(lane, value(current[lane]->vertex));
+      values[lane] = value(current[lane]->vertex);
     }
+    kernel_.set_candidates(values);
     kernel_.pivot();
     for (int lane = 0; lane < lanes; ++lane) {
       if (current[lane] == nullptr) continue;
@@ -474,36 +484,38 @@ void Tracer<Shape>::report_point(const Pending& simplex) {
 }
 
 template <class Shape>
-void Tracer<Shape>::process(std::size_t first, std::size_t count) {
+void Tracer<Shape>::process(std::size_t first, std::size_t count, std::size_t stride) {
   candidates_.clear();
   for (std::size_t i = 0; i < count; ++i) {
     candidate_begin_[i] = candidates_.size();
+    batch_[i] = pending(first + i * stride);
     if constexpr (kShort)
-      list_cofacets_short(pending(first + i), i);
+      list_cofacets_short(batch_[i], i);
     else
-      list_cofacets(pending(first + i), i);
+      list_cofacets(batch_[i], i);
   }
   candidate_begin_[count] = candidates_.size();
-  look_up_vertices(first);
+  look_up_vertices();
   evaluate_new_vertices();
   points_.extend(simplices_.size() * d_ - points_.size());
+  const bool boxed = !outside_.empty();
 
   for (std::size_t group = 0; group < count; group += kLanes) {
     const int lanes = static_cast<int>(std::min<std::size_t>(kLanes, count - group));
-    Pending simplex[kLanes];
+    const Pending* const simplex = batch_ + group;
     open_.clear();
     std::uint32_t* const open = open_.extend(candidate_begin_[group + lanes] - candidate_begin_[group]);
     std::size_t num_open = 0;
     for (int lane = 0; lane < lanes; ++lane) {
-      simplex[lane] = pending(first + group + lane);
       open_begin_[lane] = num_open;
+      const std::uint64_t* const flags = simplices_.flags(simplex[lane].id);
       for (std::size_t j = candidate_begin_[group + lane]; j < candidate_begin_[group + lane + 1]; ++j) {
         const Candidate& candidate = candidates_[j];
-        const bool outside = !outside_.empty() && outside_[candidate.vertex];
+        const bool outside = boxed && outside_[candidate.vertex];
         cut_by_box_ |= outside;
         open[num_open] = static_cast<std::uint32_t>(j);
         // Another simplex of this batch may have crossed the same cofacet from its other side.
-        num_open += !outside & !simplices_.flag(simplex[lane].id, candidate.flag);
+        num_open += !outside & !(flags[candidate.flag / 64] >> (candidate.flag % 64) & 1);
       }
     }
     open_begin_[lanes] = num_open;
@@ -512,12 +524,12 @@ void Tracer<Shape>::process(std::size_t first, std::size_t count) {
       const std::size_t end = std::min(begin + kAhead, num_open);
       for (std::size_t i = begin; i < end; ++i) {
         const Candidate& candidate = candidates_[open[i]];
-        prepare(simplex[candidate.slot - group], candidate, steps_[i - begin]);
+        prepare(batch_[candidate.slot], candidate, steps_[i - begin]);
       }
       for (std::size_t i = begin; i < end; ++i) (void)simplices_.guess(steps_[i - begin].hash);
       for (std::size_t i = begin; i < end; ++i) {
         const Candidate& candidate = candidates_[open[i]];
-        const Pending& from = simplex[candidate.slot - group];
+        const Pending& from = batch_[candidate.slot];
         if (!simplices_.flag(from.id, candidate.flag)) take(from, candidate, steps_[i - begin]);
       }
     }
@@ -565,24 +577,33 @@ bool Tracer<Shape>::grow() {
     queue_.swap(next_queue_);
     next_queue_.clear();
     const std::size_t count = queue_.size() / queue_stride();
-    for (std::size_t first = 0; first < count; first += kBatch) {
-      if (should_stop()) {
-        // What waits is part of what was found: it has its points, but its cofacets are not crossed.
-        const std::size_t left = count - first;
-        next_queue_.append(&queue_[first * queue_stride()], left * queue_stride());
-        queue_.swap(next_queue_);
-        points_.extend(simplices_.size() * d_ - points_.size());
-        for (std::size_t i = 0; i < queue_.size() / queue_stride(); ++i) {
-          const Pending simplex = pending(i);
-          open_begin_[0] = open_begin_[1] = 0;
-          find_leaving(&simplex, 1);
+    for (std::size_t first = 0; first < count; first += kStride * kBatch) {
+      const std::size_t stretch = std::min(kStride * kBatch, count - first);
+      const std::size_t stride = (stretch + kBatch - 1) / kBatch;
+      for (std::size_t i = 0; i < stride; ++i) {
+        if (should_stop()) {
+          report_waiting(first);
+          return false;
         }
-        return false;
+        process(first + i, (stretch - i + stride - 1) / stride, stride);
       }
-      process(first, std::min(kBatch, count - first));
     }
   }
   return true;
+}
+
+// At a limit: what waits in the queue, from `first` on, is part of what was found. It gets its points, though its
+// cofacets are not crossed. (Some may have theirs already.)
+template <class Shape>
+void Tracer<Shape>::report_waiting(std::size_t first) {
+  next_queue_.append(&queue_[first * queue_stride()], queue_.size() - first * queue_stride());
+  queue_.swap(next_queue_);
+  points_.extend(simplices_.size() * d_ - points_.size());
+  open_begin_[0] = open_begin_[1] = 0;
+  for (std::size_t i = 0; i < queue_.size() / queue_stride(); ++i) {
+    const Pending simplex = pending(i);
+    find_leaving(&simplex, 1);
+  }
 }
 
 template <class Shape>
