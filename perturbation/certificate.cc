@@ -82,7 +82,8 @@ Certificate::Certificate(int ambient_dim, int intrinsic_dim, double reach, doubl
   corner_.resize(k);
 }
 
-Margins Certificate::evaluate(const double* const* vertices, const FootView& foot, double enough) {
+Margins Certificate::evaluate(const double* const* vertices, const FootView& foot, double enough,
+                              double useless) {
   foot_ = foot;
   Margins margins;
   double radius = 0;
@@ -127,16 +128,30 @@ Margins Certificate::evaluate(const double* const* vertices, const FootView& foo
     for (int b = 0; b < k_; ++b) scaled_[i * k_ + b] = P_[i * k_ + b] * inverse;
   }
   double least = std::numeric_limits<double>::infinity();
+  if (useless >= 0) {
+    margins.separation = measure(worst_, enough);
+    if (margins.separation <= useless) return margins;
+  }
   for (std::size_t f = 0; f < low_faces_.num(); ++f) {
-    const std::uint8_t* face = low_faces_[f];
-    for (int j = 0; j < k_; ++j) corner_[j] = &scaled_[face[j] * k_];
-    separation_[f] = min_norm_(corner_.data(), k_, k_, enough, &low_lambda_[f * k_], &nearest_[f * k_]);
-    least = std::min(least, separation_[f]);
+    const double separation = measure(f, enough);
+    if (separation >= least) continue;
+    least = separation;
+    worst_ = f;
+    if (least > useless) continue;
+    margins.separation = least;
+    return margins;
   }
   margins.separation = least;
   margins.transversality = radius > 0 ? curvature_radius_ / radius : std::numeric_limits<double>::infinity();
   find_hits(margins);
   return margins;
+}
+
+/// The separation of (k-1)-face f.
+double Certificate::measure(std::size_t f, double enough) {
+  const std::uint8_t* face = low_faces_[f];
+  for (int j = 0; j < k_; ++j) corner_[j] = &scaled_[face[j] * k_];
+  return separation_[f] = min_norm_(corner_.data(), k_, k_, enough, &low_lambda_[f * k_], &nearest_[f * k_]);
 }
 
 void Certificate::find_hits(Margins& margins) {

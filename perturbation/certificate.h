@@ -69,9 +69,10 @@ class Certificate {
   const VertexSubsets& hit_candidates() const { return faces_; }  ///< the k-faces
 
   /// The margins of the simplex with the given vertices (m + 1 pointers to d numbers) at one foot.
-  /// Distances in (A+) are exact (up to rounding) below `enough`, and known to be at least that otherwise.
+  /// Distances in (A+) are exact (up to rounding) below `enough`, and known to be at least that otherwise. As soon as
+  /// one turns out to be at most `useless` the work stops: then the separation is that, and nothing else is set.
   Margins evaluate(const double* const* vertices, const FootView& foot,
-                   double enough = std::numeric_limits<double>::infinity());
+                   double enough = std::numeric_limits<double>::infinity(), double useless = -1);
 
   /// A (k-1)-face that is too close to the plane, and in which direction its vertices leave it.
   struct Push {
@@ -99,6 +100,7 @@ class Certificate {
   double separation(std::size_t f) const { return separation_[f]; }
 
  private:
+  double measure(std::size_t f, double enough);
   void find_hits(Margins& margins);
   bool make_push(std::size_t f, double target, std::span<const double> fallback);
 
@@ -108,6 +110,7 @@ class Certificate {
   MinNormPoint min_norm_;
   FootView foot_{};
   std::vector<double> P_, Q_, weight_, scaled_;          // (m+1) x k, (m+1) x n, m+1, (m+1) x k
+  std::size_t worst_ = 0;  // the (k-1)-face of the least separation seen last: where the next foot is likely to fail
   std::vector<double> separation_, nearest_, low_lambda_;  // per (k-1)-face: 1, k, k
   std::vector<char> hit_;                                // per k-face
   std::vector<double> lambda_;                           // per k-face: k+1

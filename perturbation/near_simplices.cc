@@ -177,11 +177,12 @@ bool NearSimplices::foot(std::uint32_t s, std::uint16_t candidate, FootView& vie
   return project(scratch_.data(), own_foot_.data(), own_foot_.data() + d_, view.errors);
 }
 
-bool NearSimplices::evaluate_at(std::uint32_t s, std::uint16_t candidate, Margins& margins, double enough) {
+bool NearSimplices::evaluate_at(std::uint32_t s, std::uint16_t candidate, Margins& margins, double enough,
+                                double useless) {
   FootView view{};
   if (candidate == Evaluation::kNoFoot || !foot(s, candidate, view)) return false;
   for (int q = 0; q <= d_; ++q) corner_positions_[q] = position(corners(s)[q]);
-  margins = certificate_.evaluate(corner_positions_.data(), view, enough);
+  margins = certificate_.evaluate(corner_positions_.data(), view, enough, useless);
   return true;
 }
 
@@ -201,9 +202,10 @@ const Evaluation& NearSimplices::evaluate(std::uint32_t s, double enough, bool w
   const int end = d_ + 2 + (with_midpoints ? d_ * (d_ + 1) / 2 : 0);
   for (; best.tried < end && best.margin < enough; ++best.tried) {
     Margins margins;
-    if (!evaluate_at(s, best.tried, margins, enough)) continue;
+    const bool first = best.candidate == Evaluation::kNoFoot;
+    if (!evaluate_at(s, best.tried, margins, enough, first ? -1 : best.margin)) continue;
     const auto margin = static_cast<float>(margins.margin());
-    if (best.candidate != Evaluation::kNoFoot && margin <= best.margin) continue;
+    if (!first && margin <= best.margin) continue;
     best.margin = margin;
     best.separation = static_cast<float>(margins.separation);
     best.transversality = static_cast<float>(margins.transversality);

@@ -92,9 +92,9 @@ class NearSimplices {
   /// What evaluate said of s, remembered as holding for the present positions (they were put back).
   void remember(std::uint32_t s, const Evaluation& evaluation);
   /// The certificate evaluated for simplex s at one of its feet; false when that foot does not exist. The certificate()
-  /// then tells the details.
+  /// then tells the details. enough, useless: see Certificate::evaluate.
   bool evaluate_at(std::uint32_t s, std::uint16_t candidate, Margins& margins,
-                   double enough = std::numeric_limits<double>::infinity());
+                   double enough = std::numeric_limits<double>::infinity(), double useless = -1);
   Certificate& certificate() { return certificate_; }
   /// The foot of a candidate for s: 0 the barycentre, 1 + i the vertex v_i, then the midpoints of the edges in
   /// lexicographic order. False when the oracle has none. The view lives until the next call of a member.
