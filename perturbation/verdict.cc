@@ -118,10 +118,7 @@ CertificateReport certify(NearSimplices& near, const NearTrace& trace, double em
       done = try_foot(candidate);
     const auto margin = static_cast<float>(proof.margins.margin());
     margins.push_back(margin);
-    if (margin < report.margin_min) {
-      report.margin_min = margin;
-      report.worst_is_separation = proof.margins.separation <= proof.margins.transversality;
-    }
+    report.margin_min = std::min<double>(report.margin_min, margin);
     if (done) {
       state[s] = {proof.hit_facets, true};
     } else {

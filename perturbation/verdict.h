@@ -40,8 +40,6 @@ struct CertificateReport {
   std::size_t simplices = 0;      ///< d-simplices of the trace
   std::size_t not_certified = 0;  ///< those for which no foot gives a proof, or whose neighbour lacks one
   double margin_min = 0, margin_median = 0;  ///< floating point
-  /// The condition that margin_min comes from: the separation (A+) or, if smaller, the transversality (B).
-  bool worst_is_separation = true;
   double displacement_max = 0;  ///< an upper bound of all abs(u(v)), rounding of the positions included (a length)
   double embedding_bound = 0;   ///< w; 2 displacement_max < w is proved when `embedded`
   bool embedded = false;

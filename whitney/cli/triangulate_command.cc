@@ -73,8 +73,7 @@ std::string describe_verdict(const TriangulateResult& result, const Bending& ben
          << result.hausdorff_bound << "\n";
   } else {
     text << report.reason << "\n";
-    text << "  margins: worst " << report.margin_min << " (" << (report.worst_is_separation ? "separation" : "transversality")
-         << "), median " << report.margin_median << "; above 1 is certified\n";
+    text << "  margins: worst " << report.margin_min << ", median " << report.margin_median << "; above 1 is certified\n";
     if (result.reach_check.consistent)
       text << "  next: --edge-length " << result.edge_length / 2 << ", or --auto-refine\n";
   }
