@@ -3,12 +3,6 @@
 
 #include <bit>
 #include <cstdint>
-#include <cstring>
-#include <vector>
-
-#ifdef __SSE2__
-#include <immintrin.h>
-#endif
 
 namespace whitney::coxeter {
 
@@ -69,63 +63,6 @@ struct CofacetStep {
 
 namespace detail {
 
-/// Eight bits to eight bytes of all ones or all zeros.
-inline std::uint64_t bytes_of_bits(std::uint32_t bits) {
-#ifdef __BMI2__
-  return _pdep_u64(bits, 0x0101010101010101) * 0xff;
-#else
-  const std::uint64_t spread = (bits * 0x8040201008040201ull >> 7) & 0x0101010101010101ull;
-  return __builtin_bswap64(spread) * 0xff;
-#endif
-}
-
-#ifdef __SSE2__
-/// The sixteen-coordinate form: everything in two registers.
-template <class Index>
-std::uint32_t step_parts_short(const Index* parts, int d, int k, std::uint32_t special_bits, bool new_base, int q,
-                               int removed, int merged, int half, Index* out) {
-  using Bytes = std::uint8_t __attribute__((vector_size(16)));
-  auto all = [](int x) { return Bytes{} + static_cast<std::uint8_t>(x); };
-  Bytes p;
-  std::memcpy(&p, parts, sizeof p);
-  const std::uint64_t words[2] = {bytes_of_bits(special_bits & 0xff), bytes_of_bits(special_bits >> 8)};
-  Bytes special;
-  std::memcpy(&special, words, sizeof special);
-  Bytes tau;
-  if (new_base) {
-    tau = (p + 1) & ~special;
-  } else {
-    tau = p - reinterpret_cast<Bytes>(p >= all(q));  // a true comparison is -1
-    tau = (tau & ~special) | (all(q) & special);
-  }
-  Bytes result;
-  if (removed == 0) {
-    const Bytes first = reinterpret_cast<Bytes>(tau == all(0));
-    result = ((tau - 1) & ~first) | (all(k) & first);
-  } else {
-    result = tau + reinterpret_cast<Bytes>(tau >= all(removed));
-  }
-  const auto movemask = [](Bytes x) {
-    return static_cast<std::uint32_t>(_mm_movemask_epi8(reinterpret_cast<__m128i>(x)));
-  };
-  const std::uint32_t valid = (std::uint32_t{1} << d) - 1;
-  const std::uint32_t in_merged = movemask(reinterpret_cast<Bytes>(result == all(merged))) & valid;
-  const std::uint32_t in_half = movemask(reinterpret_cast<Bytes>(tau == all(half))) & valid;
-  std::memcpy(out, &result, sizeof result);
-  std::memset(out + d, 0, 16);
-#ifdef __BMI2__
-  std::uint32_t split = _pext_u32(in_half, in_merged);
-#else
-  std::uint32_t split = 0;
-  int bit = 0;
-  for (std::uint32_t rest = in_merged; rest != 0; rest &= rest - 1)
-    split |= (in_half >> std::countr_zero(rest) & 1) << bit++;
-#endif
-  if (merged == k && half == k + 1) split |= std::uint32_t{1} << std::popcount(in_merged);
-  return split;
-}
-#endif
-
 template <class Index>
 std::uint32_t step_parts(const Index* parts, int d, int k, const std::uint16_t* part, std::uint32_t special,
                          bool new_base, int q, int removed, int merged, int half, Index* out) {
@@ -147,16 +84,11 @@ std::uint32_t step_parts(const Index* parts, int d, int k, const std::uint16_t* 
 
 }  // namespace detail
 
-/// How many Index values beyond the d that are written step_over_cofacet may read after `parts` and write (zeros) after
-/// `out`.
-inline constexpr int kStepSlack = 16;
-
 /// From sigma (part numbers `parts`, lists of them) over the cofacet that splits part q by `split` to the face without
 /// vertex `leaving` of sigma (0..k): writes the part numbers of sigma' to `out`, which may not overlap `parts`.
-/// special: the special_half() of the split; read only if d <= 16.
 template <class Index>
 CofacetStep step_over_cofacet(const Index* parts, const PartLists& lists, int d, int k, int q, std::uint32_t split,
-                              [[maybe_unused]] std::uint32_t special, int leaving, Index* out) {
+                              int leaving, Index* out) {
   const int size = lists.size(q);
   const bool new_base = q == k && (split >> (size - 1) & 1);
   const int inserted = new_base ? 0 : q + 1;
@@ -166,18 +98,11 @@ CofacetStep step_over_cofacet(const Index* parts, const PartLists& lists, int d,
   const int merged = removed == 0 ? k : removed - 1;
   const int half = removed == 0 ? k + 1 : removed - 1;
 
-  std::uint32_t new_split;
-#ifdef __SSE2__
-  if (sizeof(Index) == 1 && d <= 16) {
-    new_split = detail::step_parts_short(parts, d, k, special, new_base, q, removed, merged, half, out);
-  } else  // NOLINT(readability-misleading-indentation)
-#endif
-  {
-    const std::uint32_t whole = (std::uint32_t{1} << size) - 1;
-    std::uint32_t moved = new_base ? whole & ~split : split;
-    if (q == k) moved &= whole >> 1;  // element d has no part number of its own: it is always in the last part
-    new_split = detail::step_parts(parts, d, k, lists.part(q), moved, new_base, q, removed, merged, half, out);
-  }
+  const std::uint32_t whole = (std::uint32_t{1} << size) - 1;
+  std::uint32_t moved = new_base ? whole & ~split : split;
+  if (q == k) moved &= whole >> 1;  // element d has no part number of its own: it is always in the last part
+  const std::uint32_t new_split =
+      detail::step_parts(parts, d, k, lists.part(q), moved, new_base, q, removed, merged, half, out);
 
   // Splits of the parts of sigma' before the merged one: those of tau before it.
   const int in_first = std::popcount(split), in_second = size - in_first;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <coxeter/facets.h>
 #include <coxeter/simplex.h>
 #include <coxeter/simplex_writer.h>
 
@@ -212,6 +213,7 @@ class FaceEnumeration {
 /// that change. Throws InvalidInput unless 0 <= face_dim <= simplex.dim().
 template <class Visitor>
 bool for_each_face(const Simplex& simplex, int face_dim, Visitor&& visit) {
+  if (face_dim >= 0 && face_dim == simplex.dim() - 1) return detail::visit_facets(simplex, visit);
   return detail::FaceEnumeration(simplex, face_dim).run(visit);
 }
 

@@ -70,6 +70,8 @@ class GrowingArray {
     }
     size_ = size;
   }
+  /// Gives the end back: size <= size().
+  void truncate(std::size_t size) { size_ = size; }
   void clear() { size_ = 0; }
   void release() { GrowingArray().swap(*this); }
 

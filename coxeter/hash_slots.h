@@ -36,6 +36,11 @@ class HashSlots {
     }
   }
 
+  /// The first index with this hash, its key not compared; or kNone.
+  std::uint32_t guess(std::uint64_t hash) const {
+    return find(hash, [](std::uint32_t) { return true; });
+  }
+
   /// Enters an index whose key is known to be absent.
   void insert(std::uint64_t hash, std::uint32_t index) {
     if (2 * (count_ + 1) > slots_.size()) grow();

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace whitney::perturbation {
@@ -32,6 +33,8 @@ double norm_above(const std::vector<Interval>& A, int rows, int cols) {
         for (int r = 0; r < rows; ++r) sum += A[r * cols + a] * A[r * cols + b];
       gram[a * m + b] = sum;
     }
+  for (const Interval& entry : gram)
+    if (!(above(entry) < 1e150)) return std::numeric_limits<double>::infinity();
   if (m == 1) return above(sqrt(Interval(above(gram[0]))));
   if (m == 2) {
     const Interval half = (gram[0] - gram[3]) / Interval(2);
@@ -42,7 +45,6 @@ double norm_above(const std::vector<Interval>& A, int rows, int cols) {
   double scale = 0;
   for (const Interval& entry : gram) scale = std::max(scale, above(entry));
   if (!(scale > 0)) return 0;
-  if (!std::isfinite(scale)) return scale;
   const Interval inverse = Interval(1) / Interval(scale);
   for (Interval& entry : gram) entry *= inverse;
   std::vector<Interval> square(gram.size());
@@ -102,7 +104,7 @@ Proof CertificateProver::prove(const double* const* vertices, const FootView& fo
   Proof proof;
   const Margins guess = certificate_.evaluate(vertices, foot);
   proof.margins = guess;
-  if (!guess.single_sheet) return proof;
+  if (!guess.single_sheet || !std::isfinite(foot.errors.point) || !std::isfinite(foot.errors.angle)) return proof;
 
   const auto fail = [&](Proof::Outcome outcome, const std::uint8_t* face, int size) {
     proof.outcome = outcome;
@@ -122,7 +124,9 @@ Proof CertificateProver::prove(const double* const* vertices, const FootView& fo
         matrix[b * k + j] =
             certificate_.normal_part(high[f][j + 1])[b] - certificate_.normal_part(high[f][0])[b];
     inverses[f].resize(matrix.size());
-    if (!invert(matrix.data(), inverses[f].data(), k)) return fail(Proof::Outcome::kUndecided, high[f], high.size);
+    const bool regular = invert(matrix.data(), inverses[f].data(), k);
+    if (!regular || !std::all_of(inverses[f].begin(), inverses[f].end(), [](double x) { return std::abs(x) < 1e150; }))
+      return fail(Proof::Outcome::kUndecided, high[f], high.size);
   }
 
   const Rounding rounding;
@@ -187,7 +191,10 @@ Proof CertificateProver::prove(const double* const* vertices, const FootView& fo
   }
   const auto separates = [&](const double* e, const std::uint8_t* face, int size, const std::vector<double>& distance) {
     Interval squared(0);
-    for (int b = 0; b < k; ++b) squared += Interval(e[b]) * Interval(e[b]);
+    for (int b = 0; b < k; ++b) {
+      if (!(std::abs(e[b]) < 1e150)) return false;
+      squared += Interval(e[b]) * Interval(e[b]);
+    }
     const Interval length = sqrt(squared);
     for (int j = 0; j < size; ++j) {
       Interval along(0);
@@ -272,7 +279,9 @@ Proof CertificateProver::prove(const double* const* vertices, const FootView& fo
         for (int j = 0; j < k; ++j) sum += tangent_edges[a * k + j] * Interval(C[j * k + b]);
         slope[a * k + b] = sum;
       }
-    const Interval steepest = Interval(norm_above(slope, n, k)) / (Interval(1) - Interval(right_norm));
+    const double slope_norm = norm_above(slope, n, k);
+    if (!std::isfinite(slope_norm)) return fail(Proof::Outcome::kTransversality, face, k + 1);
+    const Interval steepest = Interval(slope_norm) / (Interval(1) - Interval(right_norm));
     const Interval sine = Interval(1) / sqrt(Interval(1) + Interval(above(steepest)) * Interval(above(steepest)));
     if (!((sine * ratio).inf() > 1)) return fail(Proof::Outcome::kTransversality, face, k + 1);
     std::uint32_t members = 0;

@@ -69,13 +69,15 @@ void closest_of_segment(const double* a, const double* b, int k, double* lambda)
   lambda[1] = t;
 }
 
+/// False when the triangle has next to no area: then another way must be taken.
 /// By the regions of the triangle's plane: a corner, an edge or the inside is closest. Ericson, Real-Time Collision
 /// Detection (2005), Sect. 5.1.5, with the origin as the point.
-void closest_of_triangle(const double* const* points, int k, double* lambda) {
+bool closest_of_triangle(const double* const* points, int k, double* lambda) {
   const double *a = points[0], *b = points[1], *c = points[2];
-  double d1 = 0, d2 = 0, d3 = 0, d4 = 0, d5 = 0, d6 = 0;
+  double d1 = 0, d2 = 0, d3 = 0, d4 = 0, d5 = 0, d6 = 0, size = 0;
   for (int i = 0; i < k; ++i) {
     const double ab = b[i] - a[i], ac = c[i] - a[i];
+    size += ab * ab + ac * ac;
     d1 -= ab * a[i];
     d2 -= ac * a[i];
     d3 -= ab * b[i];
@@ -87,21 +89,21 @@ void closest_of_triangle(const double* const* points, int k, double* lambda) {
     lambda[0] = x;
     lambda[1] = y;
     lambda[2] = z;
+    return true;
   };
+  const double vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
+  if (!(va + vb + vc > 1e-10 * size * size)) return false;  // the squared area, times 4
   if (d1 <= 0 && d2 <= 0) return set(1, 0, 0);
   if (d3 >= 0 && d4 <= d3) return set(0, 1, 0);
-  const double vc = d1 * d4 - d3 * d2;
   if (vc <= 0 && d1 >= 0 && d3 <= 0) return set(1 - d1 / (d1 - d3), d1 / (d1 - d3), 0);
   if (d6 >= 0 && d5 <= d6) return set(0, 0, 1);
-  const double vb = d5 * d2 - d1 * d6;
   if (vb <= 0 && d2 >= 0 && d6 <= 0) return set(1 - d2 / (d2 - d6), 0, d2 / (d2 - d6));
-  const double va = d3 * d6 - d5 * d4;
   if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
     const double t = (d4 - d3) / ((d4 - d3) + (d5 - d6));
     return set(0, 1 - t, t);
   }
   const double inverse = 1 / (va + vb + vc);
-  set(1 - vb * inverse - vc * inverse, vb * inverse, vc * inverse);
+  return set(1 - vb * inverse - vc * inverse, vb * inverse, vc * inverse);
 }
 
 }  // namespace
@@ -129,10 +131,7 @@ double MinNormPoint::operator()(const double* const* points, int m, int k, doubl
     closest_of_segment(points[0], points[1], k, lambda);
     return combine(points, m, k, lambda, x);
   }
-  if (m == 3) {
-    closest_of_triangle(points, k, lambda);
-    return combine(points, m, k, lambda, x);
-  }
+  if (m == 3 && closest_of_triangle(points, k, lambda)) return combine(points, m, k, lambda, x);
   return wolfe(points, m, k, enough, lambda, x);
 }
 

@@ -185,6 +185,8 @@ bool NearSimplices::evaluate_at(std::uint32_t s, std::uint16_t candidate, Margin
   return true;
 }
 
+void NearSimplices::forget() { std::fill(evaluation_stamp_.begin(), evaluation_stamp_.end(), 0); }
+
 void NearSimplices::remember(std::uint32_t s, const Evaluation& evaluation) {
   evaluations_[s] = evaluation;
   evaluation_stamp_[s] = stamp(s);

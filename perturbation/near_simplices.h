@@ -87,6 +87,8 @@ class NearSimplices {
   /// Margins of simplex s: feet are tried until one has a margin of at least `enough`; with_midpoints: also those of
   /// the midpoints of edges.
   const Evaluation& evaluate(std::uint32_t s, double enough, bool with_midpoints = false);
+  /// Drops all that is remembered of simplices: what evaluate says next does not depend on what was asked before.
+  void forget();
   /// What evaluate said of s, remembered as holding for the present positions (they were put back).
   void remember(std::uint32_t s, const Evaluation& evaluation);
   /// The certificate evaluated for simplex s at one of its feet; false when that foot does not exist. The certificate()

@@ -49,9 +49,12 @@ NearTrace trace_near(NearSimplices& near, std::span<const std::uint32_t> starts,
 std::uint32_t find_start(NearSimplices& near, std::span<const double> x, std::size_t max_simplices) {
   std::vector<std::uint32_t> queue{near.locate(x)};
   std::vector<char> seen;
-  for (std::size_t next = 0; next < queue.size() && next < max_simplices; ++next) {
+  bool found = false;
+  std::size_t next = 0;
+  for (; next < queue.size() && next < max_simplices; ++next) {
     const std::uint32_t s = queue[next];
-    if (near.evaluate(s, 1).is_hit()) return s;
+    found = near.evaluate(s, 1).is_hit();
+    if (found) break;
     for (int q = 0; q <= near.ambient_dim(); ++q) {
       const std::uint32_t other = near.neighbour(s, q);
       if (seen.size() <= other) seen.resize(near.num_simplices() + 1, 0);
@@ -60,7 +63,9 @@ std::uint32_t find_start(NearSimplices& near, std::span<const double> x, std::si
       queue.push_back(other);
     }
   }
-  return static_cast<std::uint32_t>(near.num_simplices());
+  // A trace that follows is not to see what this search happened to try.
+  near.forget();
+  return found ? queue[next] : queue.front();
 }
 
 }  // namespace whitney::perturbation

@@ -32,9 +32,9 @@ struct NearTrace {
 /// Walks from the start simplices across hit facets: V of the global theorem, if all it finds is certified.
 NearTrace trace_near(NearSimplices& near, std::span<const std::uint32_t> starts, const NearTraceOptions& options = {});
 
-/// The hit simplex nearest to the one that holds x, in steps across facets: at most max_simplices are looked at. Returns
-/// num_simplices() when there is none.
-std::uint32_t find_start(NearSimplices& near, std::span<const double> x, std::size_t max_simplices = 5000);
+/// The hit simplex nearest to the one that holds x, in steps across facets; at most max_simplices are looked at. When
+/// there is none, the simplex that holds x, which a certificate will then have to speak of.
+std::uint32_t find_start(NearSimplices& near, std::span<const double> x, std::size_t max_simplices = 2000);
 
 /// Sorts simplices by base vertex, then by the part numbers of their coordinates, as coxeter::Simplex does.
 void canonical_order(const NearSimplices& near, std::vector<std::uint32_t>& simplices);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <coxeter/error.h>
+#include <perturbation/keyed_random.h>
 #include <perturbation/repair.h>
 
 #include <algorithm>
@@ -8,48 +9,33 @@
 namespace whitney::perturbation {
 namespace {
 
-/// A stream of random numbers that is a function of its keys alone.
-class Random {
- public:
-  Random(std::uint64_t a, std::uint64_t b) : state_(coxeter::mix64(a ^ coxeter::mix64(b + 0x9e3779b97f4a7c15ull))) {}
-
-  std::uint64_t bits() { return coxeter::mix64(state_ += 0x9e3779b97f4a7c15ull); }
-  /// Uniform in [0, 1).
-  double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
-  int below(int n) { return static_cast<int>(uniform() * n); }
-  /// Uniform in the unit ball, by rejection for few and by normalised sums for many coordinates: the exact law does not
-  /// matter, that it has no preferred direction does.
-  void in_ball(std::span<double> x) {
-    double length = 0;
-    for (double& c : x) {
-      c = uniform() + uniform() + uniform() + uniform() - 2;
-      length += c * c;
-    }
-    const double scale = std::pow(uniform(), 1.0 / static_cast<double>(x.size())) / std::sqrt(std::max(length, 1e-30));
-    for (double& c : x) c *= scale;
-  }
-
- private:
-  std::uint64_t state_;
-};
+/// Rounds in which the trace grows are not counted against max_rounds; this ends them all the same.
+constexpr int kMostRounds = 1000;
 
 class Repairer {
  public:
   Repairer(NearSimplices& near, std::span<const std::uint32_t> starts, const RepairOptions& options)
-      : near_(near), starts_(starts), options_(options), d_(near.ambient_dim()), step_(d_), fallback_(near.codim()) {
+      : near_(near), starts_(starts.begin(), starts.end()), options_(options), d_(near.ambient_dim()), step_(d_), fallback_(near.codim()) {
     if (!(options.max_displacement > 0)) throw InvalidInput("max_displacement must be positive");
   }
 
   RepairResult run() {
     RepairResult result;
+    int settled = 0;  // rounds that did not find the trace much larger than the one before did
     for (int round = 0;; ++round) {
-      const bool polish = round >= options_.sweeps;
-      const double target = round < 2 ? options_.first_target : options_.target;
+      // A polish that left as many failing as it found has run into places where every move uncovers others that fail
+      // (exact zeros all around, so that the trace ended there): sweeps get through.
+      const std::size_t last = result.rounds.size();
+      const bool stuck = last >= 2 && result.rounds[last - 1].polish && result.rounds[last - 2].polish &&
+                         result.rounds[last - 1].failing >= result.rounds[last - 2].failing;
+      bool polish = settled >= options_.sweeps && !stuck;
+      const double target = settled < 2 ? options_.first_target : options_.target;
       NearTraceOptions trace_options;
       trace_options.enough = polish ? options_.accept : target;
       trace_options.with_midpoints = polish;
       trace_options.max_simplices = options_.max_simplices;
       trace_options.keep_going = options_.keep_going;
+      keep_starts_hit();
       const NearTrace trace = trace_near(near_, starts_, trace_options);
       RepairRound record;
       record.simplices = trace.simplices.size();
@@ -58,14 +44,22 @@ class Repairer {
       for (const std::uint32_t s : trace.simplices) {
         const double margin = near_.evaluate(s, 0).margin;
         record.worst_margin = std::min(record.worst_margin, margin);
-        if (margin < options_.accept) failing_.push_back(s);
+        if (margin < options_.accept || !near_.evaluate(s, 0).is_hit()) failing_.push_back(s);
       }
       record.failing = failing_.size();
+      // Where a trace ended at exact zeros, the next one goes on; what it finds is swept before it is polished.
+      const bool grew = last > 0 && static_cast<double>(record.simplices) >
+                                        1.1 * static_cast<double>(result.rounds.back().simplices);
+      if (grew)
+        polish = false;
+      else
+        ++settled;
       record.polish = polish;
       result.rounds.push_back(record);
       result.complete = trace.complete;
       result.all_accepted = trace.complete && failing_.empty();
-      if (result.all_accepted || !trace.complete || round >= options_.max_rounds) return result;
+      if (result.all_accepted || !trace.complete || settled > options_.max_rounds || round > kMostRounds)
+        return result;
       if (polish && static_cast<double>(failing_.size()) > options_.hopeless * static_cast<double>(record.simplices))
         return result;
       round_ = round;
@@ -86,16 +80,30 @@ class Repairer {
   }
 
  private:
+  /// A start that moves have taken off the manifold would end the trace at once: the nearest hit simplex replaces it.
+  void keep_starts_hit() {
+    for (std::uint32_t& s : starts_) {
+      if (near_.evaluate(s, 1).is_hit()) continue;
+      std::vector<double> centre(d_, 0.0);
+      for (int q = 0; q <= d_; ++q)
+        for (int c = 0; c < d_; ++c) centre[c] += near_.position(near_.corners(s)[q])[c] / (d_ + 1);
+      s = find_start(near_, centre);
+    }
+  }
+
   bool going(RepairResult& result) {
     if (++count_ % 64 != 0 || !options_.keep_going || options_.keep_going()) return true;
     result.complete = false;
     return false;
   }
 
-  std::uint64_t vertex_key(std::uint32_t v) const {
-    std::uint64_t key = options_.rng_seed;
-    for (const std::int32_t z : near_.lattice_vertex(v)) key = coxeter::mix64(key ^ static_cast<std::uint32_t>(z));
-    return key;
+  /// Random numbers of this round for the simplex s.
+  KeyedRandom random_of(std::uint32_t s) {
+    const auto z = near_.lattice_vertex(near_.base(s));
+    key_.assign(z.begin(), z.end());
+    for (int c = 0; c < d_; ++c) key_.push_back(near_.part(s, c));
+    key_.push_back(round_);
+    return {options_.rng_seed, key_};
   }
 
   /// Moves v by step, and back into the ball of radius rho about its lattice position.
@@ -112,18 +120,13 @@ class Repairer {
     near_.set_displacement(v, moved_);
   }
 
-  void draw_fallback(std::uint32_t v) {
-    Random random(vertex_key(v), 2 * round_);
-    random.in_ball(fallback_);
-  }
-
   /// Pushes all (k-1)-faces of s, as its best foot sees them, to the target.
   void push(std::uint32_t s, double target) {
     const Evaluation& evaluation = near_.evaluate(s, target);
     if (evaluation.margin >= target) return;
     Margins margins;
     if (!near_.evaluate_at(s, evaluation.candidate, margins, target) || !margins.single_sheet) return;
-    draw_fallback(near_.corners(s)[0]);
+    random_of(s).in_ball(1, fallback_);
     steps_.assign((d_ + 1) * static_cast<std::size_t>(d_), 0.0);
     near_.certificate().for_each_push(target, fallback_, [&](const Certificate::Push& push) {
       for (int j = 0; j < near_.codim(); ++j)
@@ -220,8 +223,7 @@ class Repairer {
   }
 
   void polish_simplex(std::uint32_t s) {
-    Random random(vertex_key(near_.base(s)), 2 * round_ + 1);
-    for (int c = 0; c < d_; ++c) random = Random(random.bits(), near_.part(s, c));
+    KeyedRandom random = random_of(s);
     for (int attempt = 0; attempt < options_.trials; ++attempt) {
       if (!is_reached(s)) return;
       const Evaluation evaluation = near_.evaluate(s, options_.accept, true);
@@ -233,7 +235,7 @@ class Repairer {
       if (near_.evaluate_at(s, evaluation.candidate, margins, options_.target) && margins.single_sheet &&
           margins.separation < options_.accept && attempt % 4 != 3) {
         // The worst face: pushed (by more, then by less than needed), or all of it or one vertex at random.
-        draw_fallback(corner[0]);
+        random.in_ball(1, fallback_);
         double worst = options_.target;
         std::vector<double> steps;
         near_.certificate().for_each_push(options_.target, fallback_, [&](const Certificate::Push& push) {
@@ -251,7 +253,8 @@ class Repairer {
           const double factor = attempt == 0 ? 1 : attempt == 1 ? 2 : 0.5;
           for (double& c : trial_steps_) c *= factor;
         } else {
-          if (random.below(2) == 0 && !moving_.empty()) moving_ = {moving_[random.below(static_cast<int>(moving_.size()))]};
+          if (random.below(2) == 0 && !moving_.empty())
+            moving_ = {moving_[random.below(static_cast<int>(moving_.size()))]};
           random_steps(random);
         }
       } else {
@@ -262,22 +265,23 @@ class Repairer {
     }
   }
 
-  void random_steps(Random& random) {
+  void random_steps(KeyedRandom& random) {
     const double size = options_.max_displacement * std::pow(10.0, 0.3 - 2 * random.uniform());
     trial_steps_.clear();
     for (std::size_t i = 0; i < moving_.size(); ++i) {
-      random.in_ball(step_);
-      for (const double c : step_) trial_steps_.push_back(size * c);
+      random.in_ball(size, step_);
+      trial_steps_.insert(trial_steps_.end(), step_.begin(), step_.end());
     }
   }
 
   NearSimplices& near_;
-  std::span<const std::uint32_t> starts_;
+  std::vector<std::uint32_t> starts_;
   const RepairOptions& options_;
   int d_, round_ = 0;
   std::size_t count_ = 0;
   std::vector<double> step_, fallback_, moved_, steps_, trial_steps_;
   std::vector<std::uint32_t> failing_, before_, after_, moving_;
+  std::vector<std::int32_t> key_;
   std::vector<char> reached_, marks_;
   std::vector<Evaluation> remembered_;
   std::vector<Saved> saved_;

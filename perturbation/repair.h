@@ -20,7 +20,8 @@ struct RepairOptions {
   /// What a sweep pushes towards, in the first two rounds and afterwards.
   double first_target = 1.3, target = 1.1;
   int sweeps = 4;
-  int max_rounds = 12;  ///< sweeps and polishes together
+  /// Sweeps and polishes together; those after which the trace reaches 10 % further than before are not counted.
+  int max_rounds = 12;
   /// Give up when after the sweeps more than this fraction of the simplices fails.
   double hopeless = 0.35;
   /// Trials of the polish per failing simplex and round.

@@ -165,14 +165,12 @@ struct BarycentricKernel::Impl {
     const Lanes rounding = gamma * magnitude;
     const Lanes y_error = 1.01 * (inverse_error * (y_max + rounding) + rounding);
 
-    const double infinity = std::numeric_limits<double>::infinity();
-    Lanes best = splat(infinity), best_y = splat(1.0), best_weight = splat(infinity);
+    // Ratios are compared by products: what this loop finds is proved below, and divisions are slow.
+    Lanes best_y{}, best_weight = splat(1.0);
     Mask leaving = Mask{} + kUndecided;
     for (int r = 0; r < n; ++r) {
       const Lanes weight = M[r * n];
-      const Lanes ratio = weight / y[r];
-      const Mask better = (y[r] > y_error) & (ratio < best);
-      best = better ? ratio : best;
+      const Mask better = (y[r] > y_error) & (weight * best_y < best_weight * y[r]);
       best_y = better ? y[r] : best_y;
       best_weight = better ? weight : best_weight;
       leaving = better ? Mask{} + r : leaving;
@@ -191,15 +189,12 @@ struct BarycentricKernel::Impl {
   }
 };
 
-// One equation: signs decide, exactly. A zero counts as negative, which is what tracing f = eps > 0 means.
+// One equation: signs decide.
 template <>
 struct BarycentricKernel::Impl<2> {
   static void factor(BarycentricKernel& kernel) {
     for (int lane = 0; lane < kLanes; ++lane) {
-      const double f0 = kernel.matrix_[2 * kLanes + lane], f1 = kernel.matrix_[3 * kLanes + lane];
-      const double a = f0 < 0 ? -f0 : f0, b = f1 < 0 ? -f1 : f1;
-      // |f_0| and |f_1| have opposite signs, so f_0 - f_1 has no cancellation; halved, it cannot overflow.
-      const double w1 = (a / 2) / (a / 2 + b / 2);
+      const double w1 = SignKernel::second_weight(kernel.matrix_[2 * kLanes + lane], kernel.matrix_[3 * kLanes + lane]);
       kernel.inverse_[lane] = 1 - w1;
       kernel.inverse_[2 * kLanes + lane] = w1;
       kernel.weight_error_[lane] = 4 * kUnitRoundoff;
@@ -208,12 +203,42 @@ struct BarycentricKernel::Impl<2> {
   }
   static void pivot(BarycentricKernel& kernel) {
     for (int lane = 0; lane < kLanes; ++lane) {
-      const bool first_positive = kernel.matrix_[2 * kLanes + lane] > 0;
-      const bool positive = kernel.candidate_[kLanes + lane] > 0;
-      kernel.leaving_[lane] = positive == first_positive ? 0 : 1;
+      kernel.leaving_[lane] = SignKernel::leaving(kernel.matrix_[2 * kLanes + lane], kernel.candidate_[kLanes + lane]);
     }
   }
 };
+
+// Eight values of eight lanes are transposed in registers: three rounds in which pairs of rows exchange halves, of ever
+// larger blocks.
+void BarycentricKernel::set_rows(const double* const* f, double* to, int stride) {
+  constexpr int kShortest = 4;  // below, one value after the other is as fast
+  const int k = codim();
+  if (k < kShortest) {
+    for (int lane = 0; lane < kLanes; ++lane)
+      for (int r = 0; r < k; ++r) to[std::size_t(r) * stride * kLanes + lane] = f[lane][r];
+    return;
+  }
+  static_assert(kLanes == 8);
+  for (int first = 0; first < k; first += kLanes) {
+    Lanes a[kLanes], b[kLanes], out[kLanes];
+    for (int lane = 0; lane < kLanes; ++lane) std::memcpy(&a[lane], f[lane] + first, sizeof a[lane]);
+    for (int i = 0; i < kLanes; i += 2) {
+      b[i] = __builtin_shufflevector(a[i], a[i + 1], 0, 8, 2, 10, 4, 12, 6, 14);
+      b[i + 1] = __builtin_shufflevector(a[i], a[i + 1], 1, 9, 3, 11, 5, 13, 7, 15);
+    }
+    for (int half = 0; half < kLanes; half += 4)
+      for (int i = half; i < half + 2; ++i) {
+        a[i] = __builtin_shufflevector(b[i], b[i + 2], 0, 1, 8, 9, 4, 5, 12, 13);
+        a[i + 2] = __builtin_shufflevector(b[i], b[i + 2], 2, 3, 10, 11, 6, 7, 14, 15);
+      }
+    for (int i = 0; i < 4; ++i) {
+      out[i] = __builtin_shufflevector(a[i], a[i + 4], 0, 1, 2, 3, 8, 9, 10, 11);
+      out[i + 4] = __builtin_shufflevector(a[i], a[i + 4], 4, 5, 6, 7, 12, 13, 14, 15);
+    }
+    for (int r = first; r < k && r < first + kLanes; ++r)
+      std::memcpy(to + std::size_t(r) * stride * kLanes, &out[r - first], sizeof out[0]);
+  }
+}
 
 BarycentricKernel::BarycentricKernel(int codim)
     : size_(codim + 1),

@@ -7,6 +7,18 @@
 
 namespace whitney {
 
+/// One equation, one simplex: signs decide, exactly. A zero counts as negative, which is what tracing f = eps > 0 means.
+struct SignKernel {
+  /// lambda_1 of the edge with these values at its ends, which have opposite signs; NaN if both are 0.
+  static double second_weight(double f0, double f1) {
+    const double a = f0 < 0 ? -f0 : f0, b = f1 < 0 ? -f1 : f1;
+    // f_0 - f_1 has no cancellation; halved, it cannot overflow.
+    return (a / 2) / (a / 2 + b / 2);
+  }
+  /// The index of the vertex that leaves for w.
+  static int leaving(double f0, double fw) { return (fw > 0) == (f0 > 0) ? 0 : 1; }
+};
+
 /// The linear algebra of the tracer, for kLanes k-simplices side by side (one SIMD lane each).
 ///
 /// Notation: for a k-simplex with vertices v_0..v_k, B is the (k+1) x (k+1) matrix with columns (1, f(v_q)); M = B^-1;
@@ -38,6 +50,10 @@ class BarycentricKernel {
     for (int r = 1; r < size_; ++r) entry[std::size_t(r) * size_ * kLanes] = f[r - 1];
   }
 
+  /// Column q of B for all lanes at once: f[lane] points to f(v_q) of that lane. kSlack more values may be read.
+  void set_vertices(int q, const double* const* f) { set_rows(f, matrix_.data() + (size_ + q) * kLanes, size_); }
+  static constexpr int kSlack = 7;
+
   /// Inverts B and bounds the error in all lanes. Lanes not set hold what they held; their results mean nothing.
   void factor() { factor_(*this); }
 
@@ -53,6 +69,9 @@ class BarycentricKernel {
     for (int r = 1; r < size_; ++r) candidate_[std::size_t(r) * kLanes + lane] = f[r - 1];
   }
 
+  /// The same for all lanes at once, as set_vertices().
+  void set_candidates(const double* const* f) { set_rows(f, candidate_.data() + kLanes, 1); }
+
   /// For every lane: the index r of the vertex that leaves, or kUndecided when rounding errors could change it.
   void pivot() { pivot_(*this); }
   int leaving(int lane) const { return leaving_[lane]; }
@@ -60,6 +79,8 @@ class BarycentricKernel {
  private:
   template <int kSize>
   struct Impl;
+  // Value r of lane l goes to to[(r * stride) * kLanes + l].
+  void set_rows(const double* const* f, double* to, int stride);
   template <class T>
   struct AlignedAllocator {
     using value_type = T;

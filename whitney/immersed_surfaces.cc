@@ -89,9 +89,13 @@ Submanifold klein_bottle() {
     J[6] = sin_v * cos_half / 2;
     J[7] = cos_v * sin_half;
   };
-  return parametric_manifold(4, {{0, kTurn}, {0, kTurn}}, map, derivative);
+  return with_bending(parametric_manifold(4, {{0, kTurn}, {0, kTurn}}, map, derivative),
+                      {1, 1, Bending::Source::kEstimated});
 }
 
-Submanifold projective_plane() { return parametric_manifold(std::make_shared<ProjectivePlane>()); }
+Submanifold projective_plane() {
+  return with_bending(parametric_manifold(std::make_shared<ProjectivePlane>()),
+                      {0.5, 0.5, Bending::Source::kEstimated});
+}
 
 }  // namespace whitney

@@ -276,6 +276,8 @@ class ParametricModel : public Submanifold::Model, public std::enable_shared_fro
       // From here the next step would be of the size of roundings; later where the minimum is shallow (next to the
       // medial axis), because there the differences in the Hessian weigh more.
       const bool sharp = t.dot(hessian.selfadjointView<Eigen::Lower>() * t) > 0.1 * length * length;
+      // So near, distances differ by roundings only, and cannot say whether a step is good.
+      const bool close = convex && length <= 1e-4 * covering_radius_;
       const bool last = convex && length <= (sharp ? 1e-7 : 1e-11) * covering_radius_;
       double moved_squared = 0;
       for (int halvings = 0;; ++halvings) {
@@ -284,7 +286,7 @@ class ParametricModel : public Submanifold::Model, public std::enable_shared_fro
         phi_->move(const_span_of(u), const_span_of(step), span_of(moved));
         phi_->evaluate(const_span_of(moved), span_of(y_moved));
         moved_squared = squared_distance(const_span_of(y_moved), x);
-        if (last || moved_squared <= squared) break;
+        if (close || moved_squared <= squared) break;
         t *= 0.5;
       }
       u = moved;

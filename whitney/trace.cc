@@ -11,6 +11,7 @@
 
 #include <coxeter/cofacet_step.h>
 #include <coxeter/error.h>
+#include <coxeter/short_partition.h>
 #include <coxeter/simplex_table.h>
 #include <coxeter/vertex_table.h>
 #include <whitney/barycentric_kernel.h>
@@ -44,11 +45,44 @@ namespace {
 
 constexpr int kLanes = BarycentricKernel::kLanes;
 constexpr std::size_t kBatch = 64;  // simplices whose cofacets are looked at together, so that f is asked in batches
+// Neighbours in the queue have cofacets in common. A batch is every kStride-th simplex of a stretch of the queue, so that
+// most cofacets are known to be crossed before their other side is looked at.
+constexpr std::size_t kStride = 16;
+constexpr std::size_t kAhead = 32;  // simplices looked up together, so that memory is waited for once
 
 // A split of a part with s elements into two non-empty ordered halves, 2^s - 2 of them, needs a flag; s <= n + 1.
 constexpr int kMaxIntrinsicDim = 16;
 
 }  // namespace
+
+namespace {
+
+/// What is known at compile time: the type of part numbers; d and k, or 0; whether ShortPartition fits.
+template <class IndexType, bool kShortForm, int kAmbientDim = 0, int kNumEquations = 0>
+struct Shape {
+  using Index = IndexType;
+  static constexpr bool kShort = kShortForm;
+  static constexpr int kDim = kAmbientDim, kCodim = kNumEquations;
+};
+
+}  // namespace
+
+/// The linear form of VertexTable at e(U), for every subset U of {0..d-1}, d <= 15, from two small tables.
+class SubsetForms {
+ public:
+  SubsetForms() = default;
+  SubsetForms(const std::uint64_t* weights, int dim) {
+    for (int c = 0; c < dim; ++c) {
+      std::uint64_t* half = c < 8 ? low_ : high_;
+      const int bit = 1 << (c & 7);
+      for (int u = 0; u < bit; ++u) half[bit | u] = half[u] + weights[c];
+    }
+  }
+  std::uint64_t operator()(std::uint32_t subset) const { return low_[subset & 255] + high_[subset >> 8]; }
+
+ private:
+  std::uint64_t low_[256] = {}, high_[128] = {};
+};
 
 /// One run of the tracer.
 ///
@@ -57,18 +91,21 @@ constexpr int kMaxIntrinsicDim = 16;
 /// is the base vertex of tau. A cofacet has a number: the splits of part 0, then those of part 1, ..; within a part, A
 /// as a set of bits over the part's elements in increasing order, less 1.
 ///
-/// kDim: d when known at compile time (every loop over coordinates is then straight code: measured: 10 to 15 % less
-/// time), else 0.
-template <class Index, int kDim>
+/// Two forms of the same steps: ShortPartition where it fits, part lists otherwise.
+template <class Shape>
 class Tracer {
+  using Index = typename Shape::Index;
+  static constexpr int kDim = Shape::kDim, kCodim = Shape::kCodim;
+  static constexpr bool kShort = Shape::kShort;
+
  public:
   Tracer(const Function& f, const coxeter::Triangulation& triangulation, const TraceOptions& options)
       : f_(f),
         triangulation_(triangulation),
         options_(options),
         d_{f.ambient_dim()},
-        k_(f.codim()),
-        vertices_(d_),
+        k_{f.codim()},
+        vertices_(d_, k_),
         simplices_(d_, flag_words(d_ - k_)),
         kernel_(k_),
         columns_(k_ + 1) {}
@@ -79,42 +116,56 @@ class Tracer {
   // A simplex that waits for its cofacets to be crossed.
   struct Pending {
     std::uint32_t id;
-    std::uint64_t hash;
-    std::uint32_t* vertices;  // k + 1 of them
+    const std::uint32_t* vertices;  // k + 1 of them; one more on either side may be read
   };
+  // A cofacet not yet crossed.
   struct Candidate {
-    std::uint32_t part;     // q
-    std::uint32_t split;    // A, bits over the elements of part q
+    std::uint64_t form;     // of w
+    std::uint32_t vertex;   // w
+    std::uint32_t split;    // A, bits over the elements of part q; the long form only
     std::uint32_t special;  // its special half, bits over the coordinates; if d <= kMaxBitsDim
     std::uint32_t flag;     // number of the cofacet
-    std::uint32_t vertex;   // w
+    std::int32_t leaving;   // the vertex of sigma that is not in the simplex behind the cofacet
+    std::uint16_t part;     // q
+    std::uint8_t slot;      // of sigma in the batch
     bool new_base;          // w is the base vertex of the cofacet
-    std::uint64_t form;     // of w
   };
-  // A cofacet being crossed.
+  // The simplex behind a cofacet.
   struct Step {
-    const Candidate* candidate = nullptr;
-    std::uint64_t* key = nullptr;  // of the simplex behind it
-    std::uint64_t hash = 0;
-    coxeter::CofacetStep over{};
+    std::uint64_t* key;
+    std::uint64_t hash;
+    int inserted, removed;  // positions among the vertices of the cofacet, see coxeter::CofacetStep
+    std::uint32_t flag;     // number of the cofacet, seen from here
   };
-  // Queues are flat: id, hash (two words), vertices.
-  std::size_t queue_stride() const { return 3 + k_ + 1; }
+  // Queues are flat: id, vertices, one word to spare.
+  std::size_t queue_stride() const { return 1 + (k_ + 1) + 1; }
 
   static std::size_t flag_words(int intrinsic_dim) { return ((std::size_t{2} << intrinsic_dim) - 2 + 63) / 64; }
 
-  double* value(std::uint32_t vertex) { return &values_[std::size_t{vertex} * k_]; }
+  double* value(std::uint32_t vertex) { return vertices_.values(vertex); }
   // Room for the k + 1 vertices of a simplex that joins the queue.
-  std::uint32_t* enqueue(std::uint32_t id, std::uint64_t hash);
-  Pending pending(std::size_t i);
+  std::uint32_t* enqueue(std::uint32_t id) {
+    std::uint32_t* entry = next_queue_.extend(queue_stride());
+    entry[0] = id;
+    return entry + 1;
+  }
+  Pending pending(std::size_t i) const {
+    const std::uint32_t* entry = queue_.data() + i * queue_stride();
+    return {entry[0], entry + 1};
+  }
   void evaluate_new_vertices();
   bool start_from(const Crossing& crossing);
   bool grow();
-  void process(std::size_t first, std::size_t count);
+  void report_waiting(std::size_t first);
+  void process(std::size_t first, std::size_t count, std::size_t stride);
+  void list_cofacets_short(const Pending& simplex, std::size_t slot);
   void list_cofacets(const Pending& simplex, std::size_t slot);
-  void prepare(const Pending& simplex, std::size_t slot, const Candidate& candidate, int leaving, Step& step);
-  void take(const Pending& simplex, const Step& step);
-  void report_point(const Pending& simplex, int lane);
+  void look_up_vertices();
+  void find_leaving(const Pending* simplex, int lanes);
+  void prepare(const Pending& simplex, const Candidate& candidate, Step& step);
+  void take(const Pending& simplex, const Candidate& candidate, const Step& step);
+  void take_weights(const Pending& simplex, int lane);
+  void report_point(const Pending& simplex);
   coxeter::PartLists part_lists(std::size_t slot) {
     return {&elements_[slot * (d_ + 1)], &starts_[slot * (k_ + 2)], &numbers_[slot * (k_ + 2)]};
   }
@@ -126,17 +177,18 @@ class Tracer {
   const Function& f_;
   const coxeter::Triangulation& triangulation_;
   const TraceOptions& options_;
-  struct Dim {
+  template <int kKnown>
+  struct Size {
     int value;
-    constexpr operator int() const { return kDim > 0 ? kDim : value; }
+    constexpr operator int() const { return kKnown > 0 ? kKnown : value; }
   };
-  const Dim d_;
-  const int k_;
+  const Size<kDim> d_;
+  const Size<kCodim> k_;
 
-  VertexTable vertices_;
-  GrowingArray<double> values_;  // f, k a vertex; meaningless where outside_
-  GrowingArray<char> outside_;   // filled only when there is a box
-  SimplexTable<Index> simplices_;
+  VertexTable vertices_;  // with f, k values a vertex; meaningless where outside_
+  std::size_t evaluated_ = 0;
+  GrowingArray<char> outside_;  // filled only when there is a box
+  SimplexTable<Index, kDim> simplices_;
   GrowingArray<double> points_;  // d a simplex
   BarycentricKernel kernel_;
 
@@ -146,40 +198,30 @@ class Tracer {
   StopReason stop_ = StopReason::kNone;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 
-  // Part lists of the simplices of one batch, a slot each.
+  // The simplices of one batch, a slot each, and their candidates.
+  std::vector<coxeter::ShortPartition<kDim, kCodim>> partitions_;
   std::vector<std::uint16_t> elements_, starts_;
   std::vector<std::uint32_t> numbers_;
-  std::vector<Candidate> candidates_;
-  std::vector<std::size_t> candidate_begin_;
+  GrowingArray<Candidate> candidates_;
+  std::size_t candidate_begin_[kBatch + 1];
+  Pending batch_[kBatch];
+  // Candidates of one group that are still to be crossed, by lane.
+  GrowingArray<std::uint32_t> open_;
+  std::size_t open_begin_[kLanes + 1];
 
   // Scratch.
   std::vector<std::uint64_t> keys_;
-  Step steps_[kLanes];
+  Step steps_[kAhead];
   std::vector<const double*> columns_;
   std::vector<std::int32_t> z_;
+  SubsetForms subset_forms_;
   std::vector<std::uint64_t> form_sums_;  // over the subsets of one part
   std::vector<std::uint32_t> bit_sums_;
   std::vector<double> x_, f_values_, weights_, sums_, y_;
 };
 
-template <class Index, int kDim>
-std::uint32_t* Tracer<Index, kDim>::enqueue(std::uint32_t id, std::uint64_t hash) {
-  std::uint32_t* entry = next_queue_.extend(queue_stride());
-  entry[0] = id;
-  std::memcpy(entry + 1, &hash, sizeof hash);
-  return entry + 3;
-}
-
-template <class Index, int kDim>
-typename Tracer<Index, kDim>::Pending Tracer<Index, kDim>::pending(std::size_t i) {
-  std::uint32_t* entry = queue_.data() + i * queue_stride();
-  Pending simplex{entry[0], 0, entry + 3};
-  std::memcpy(&simplex.hash, entry + 1, sizeof simplex.hash);
-  return simplex;
-}
-
-template <class Index, int kDim>
-OracleError Tracer<Index, kDim>::not_finite(int component, double value, const double* x) const {
+template <class Shape>
+OracleError Tracer<Shape>::not_finite(int component, double value, const double* x) const {
   std::string at;
   char number[32];
   for (int c = 0; c < d_; ++c) {
@@ -190,9 +232,9 @@ OracleError Tracer<Index, kDim>::not_finite(int component, double value, const d
                      (std::isnan(value) ? "NaN" : "infinite") + " at (" + at + ")");
 }
 
-template <class Index, int kDim>
-void Tracer<Index, kDim>::evaluate_new_vertices() {
-  const std::size_t known = values_.size() / k_, size = vertices_.size();
+template <class Shape>
+void Tracer<Shape>::evaluate_new_vertices() {
+  const std::size_t known = evaluated_, size = vertices_.size();
   if (known == size) return;
   const std::size_t count = size - known;
   x_.resize(count * d_);
@@ -210,25 +252,47 @@ void Tracer<Index, kDim>::evaluate_new_vertices() {
   f_values_.resize(asked * k_);
   f_.evaluate({x_.data(), asked * d_}, f_values_);
   evaluations_ += asked;
-  double* values = values_.extend(count * k_);
+  evaluated_ = size;
   std::size_t read = 0;
   for (std::size_t i = 0; i < count; ++i) {
+    double* values = value(static_cast<std::uint32_t>(known + i));
     if (options_.box && outside_[known + i]) {
-      std::fill_n(values + i * k_, k_, 0.0);
+      std::fill_n(values, int{k_}, 0.0);
       continue;
     }
     for (int r = 0; r < k_; ++r) {
       const double value = f_values_[read * k_ + r];
       if (!std::isfinite(value)) throw not_finite(r, value, &x_[read * d_]);
-      values[i * k_ + r] = value;
+      values[r] = value;
     }
     ++read;
   }
 }
 
 // Lists the cofacets not yet crossed of a simplex, with the form of the vertex each adds.
-template <class Index, int kDim>
-void Tracer<Index, kDim>::list_cofacets(const Pending& simplex, std::size_t slot) {
+template <class Shape>
+void Tracer<Shape>::list_cofacets_short(const Pending& simplex, std::size_t slot) {
+  auto& partition = partitions_[slot];
+  partition = {simplices_.parts(simplex.id), d_, k_};
+  std::uint64_t rest = partition.cofacets() & ~*simplices_.flags(simplex.id);
+  const std::size_t size = candidates_.size();
+  Candidate* candidate = candidates_.extend(64);
+  Candidate* const begin = candidate;
+  for (; rest != 0; rest &= rest - 1, ++candidate) {
+    const int number = std::countr_zero(rest);
+    const auto split = partition.split(number);
+    const std::uint64_t sum = subset_forms_(split.special);
+    const std::uint64_t form =
+        vertices_.form(simplex.vertices[split.new_base ? 0 : split.part]) + (split.new_base ? 0 - sum : sum);
+    vertices_.prefetch(form);
+    *candidate = {form, 0, 0, split.special, static_cast<std::uint32_t>(number), 0,
+                  static_cast<std::uint16_t>(split.part), static_cast<std::uint8_t>(slot), split.new_base};
+  }
+  candidates_.truncate(size + (candidate - begin));
+}
+
+template <class Shape>
+void Tracer<Shape>::list_cofacets(const Pending& simplex, std::size_t slot) {
   const coxeter::PartLists lists = part_lists(slot);
   coxeter::list_parts(simplices_.parts(simplex.id), d_, k_, lists);
   const std::uint64_t* weights = vertices_.weights();
@@ -252,57 +316,154 @@ void Tracer<Index, kDim>::list_cofacets(const Pending& simplex, std::size_t slot
     for (std::uint32_t split = 1; split < whole; ++split, ++flag) {
       if (flags[flag / 64] >> (flag % 64) & 1) continue;
       vertices_.prefetch(form_sums_[split]);
-      candidates_.push_back({static_cast<std::uint32_t>(q), split,
+      candidates_.push_back({form_sums_[split], 0, split,
                              bits_fit ? coxeter::special_half(bit_sums_[split], bit_sums_[whole], d_) : 0, flag, 0,
-                             q == k_ && (split >> (size - 1) & 1), form_sums_[split]});
+                             static_cast<std::uint16_t>(q), static_cast<std::uint8_t>(slot),
+                             q == k_ && (split >> (size - 1) & 1)});
+    }
+  }
+}
+
+// Finds or enters the vertex w of every candidate: w = v_q + e(A), or v_0 - e(B) if that is below v_0.
+template <class Shape>
+void Tracer<Shape>::look_up_vertices() {
+  for (Candidate& candidate : candidates_) candidate.vertex = vertices_.guess(candidate.form);
+  for (Candidate& candidate : candidates_) {
+    const std::uint32_t from = batch_[candidate.slot].vertices[candidate.new_base ? 0 : candidate.part];
+    const std::int32_t step = candidate.new_base ? -1 : 1;
+    const bool bits_fit = d_ <= coxeter::kMaxBitsDim;
+    if (bits_fit && candidate.vertex != coxeter::HashSlots::kNone &&
+        vertices_.template is_neighbour<kDim>(candidate.vertex, from, candidate.special, step))
+      continue;
+    const std::int32_t* z = vertices_.coordinates(from);
+    if (bits_fit) {
+      for (int c = 0; c < d_; ++c) z_[c] = z[c] + step * static_cast<std::int32_t>(candidate.special >> c & 1);
+    } else {
+      std::copy_n(z, int{d_}, z_.begin());
+      const coxeter::PartLists lists = part_lists(candidate.slot);
+      const std::uint16_t* part = lists.part(candidate.part);
+      std::uint32_t half = candidate.split;
+      if (candidate.new_base) half = ~half & ((std::uint32_t{1} << lists.size(candidate.part)) - 1);
+      for (; half != 0; half &= half - 1) z_[part[std::countr_zero(half)]] += step;
+    }
+    candidate.vertex = vertices_.template intern<kDim>(z_.data(), candidate.form);
+  }
+}
+
+// For the open candidates of a group of simplices, which vertex leaves. Reports the points of the simplices by the way.
+template <class Shape>
+void Tracer<Shape>::find_leaving(const Pending* simplex, int lanes) {
+  if (k_ == 1) {
+    for (int lane = 0; lane < lanes; ++lane) {
+      const double first = *value(simplex[lane].vertices[0]);
+      weights_[1] = SignKernel::second_weight(first, *value(simplex[lane].vertices[1]));
+      weights_[0] = 1 - weights_[1];
+      report_point(simplex[lane]);
+      for (std::size_t i = open_begin_[lane]; i < open_begin_[lane + 1]; ++i) {
+        Candidate& candidate = candidates_[open_[i]];
+        candidate.leaving = SignKernel::leaving(first, *value(candidate.vertex));
+      }
+    }
+    return;
+  }
+  static_assert(BarycentricKernel::kSlack <= VertexTable::kSlackWords);
+  const double* values[kLanes];
+  for (int q = 0; q <= k_; ++q) {
+    // Lanes to spare repeat the first simplex.
+    for (int lane = 0; lane < kLanes; ++lane) values[lane] = value(simplex[lane < lanes ? lane : 0].vertices[q]);
+    kernel_.set_vertices(q, values);
+  }
+  kernel_.factor();
+  std::size_t rounds = 0;
+  for (int lane = 0; lane < lanes; ++lane) {
+    take_weights(simplex[lane], lane);
+    report_point(simplex[lane]);
+    rounds = std::max(rounds, open_begin_[lane + 1] - open_begin_[lane]);
+  }
+  for (std::size_t round = 0; round < rounds; ++round) {
+    Candidate* current[kLanes] = {};
+    for (int lane = 0; lane < lanes; ++lane) {
+      const std::size_t i = open_begin_[lane] + round;
+      if (i >= open_begin_[lane + 1]) continue;
+      current[lane] = &candidates_[open_[i]];
+      values[lane] = value(current[lane]->vertex);
+    }
+    kernel_.set_candidates(values);
+    kernel_.pivot();
+    for (int lane = 0; lane < lanes; ++lane) {
+      if (current[lane] == nullptr) continue;
+      int leaving = kernel_.leaving(lane);
+      if (leaving == BarycentricKernel::kUndecided) {
+        for (int q = 0; q <= k_; ++q) columns_[q] = value(simplex[lane].vertices[q]);
+        leaving = exactly_leaving(columns_, value(current[lane]->vertex));
+        ++exact_decisions_;
+      }
+      current[lane]->leaving = leaving;
     }
   }
 }
 
 // From sigma over the cofacet to its other k-face that is hit, the one without vertex `leaving` of sigma: everything
 // about it but whether it is known.
-template <class Index, int kDim>
-void Tracer<Index, kDim>::prepare(const Pending& simplex, std::size_t slot, const Candidate& candidate, int leaving,
-                                  Step& step) {
-  step.candidate = &candidate;
+template <class Shape>
+void Tracer<Shape>::prepare(const Pending& simplex, const Candidate& candidate, Step& step) {
   Index* out = SimplexTable<Index>::parts_of(step.key);
-  step.over =
-      coxeter::step_over_cofacet(simplices_.parts(simplex.id), part_lists(slot), d_, k_,
-                                 static_cast<int>(candidate.part), candidate.split, candidate.special, leaving, out);
-  const std::uint32_t* v = simplex.vertices;
-  std::uint32_t base = step.over.inserted == 0 ? candidate.vertex : v[0];
-  if (step.over.removed == 0) base = step.over.inserted == 1 ? candidate.vertex : v[1];
+  if constexpr (kShort) {
+    const auto over = partitions_[candidate.slot].step({candidate.part, candidate.special, candidate.new_base},
+                                                       candidate.leaving);
+    std::memcpy(out, &over.parts, sizeof over.parts);
+    step.inserted = over.inserted;
+    step.removed = over.removed;
+    step.flag = static_cast<std::uint32_t>(over.number);
+  } else {
+    const coxeter::CofacetStep over =
+        coxeter::step_over_cofacet(simplices_.parts(simplex.id), part_lists(candidate.slot), d_, k_, candidate.part,
+                                   candidate.split, candidate.leaving, out);
+    step.inserted = over.inserted;
+    step.removed = over.removed;
+    step.flag = over.number;
+  }
+  const bool base_leaves = candidate.leaving == 0;
+  const std::uint32_t base = step.inserted <= int{base_leaves} ? candidate.vertex : simplex.vertices[base_leaves];
   SimplexTable<Index>::set_base(step.key, base);
-  step.hash = simplex.hash + coxeter::mix64(candidate.form) - coxeter::mix64(vertices_.form(v[leaving]));
+  step.hash = simplices_.hash_of(step.key);
   simplices_.prefetch(step.hash);
 }
 
-template <class Index, int kDim>
-void Tracer<Index, kDim>::take(const Pending& simplex, const Step& step) {
+template <class Shape>
+void Tracer<Shape>::take(const Pending& simplex, const Candidate& candidate, const Step& step) {
   const std::size_t known = simplices_.size();
   const std::uint32_t id = simplices_.intern(step.key, step.hash);
   if (id == known) {
-    std::uint32_t* out = enqueue(id, step.hash);
+    std::uint32_t* out = enqueue(id);
     const std::uint32_t* v = simplex.vertices;
-    for (int position = 0; position <= k_ + 1; ++position) {
-      const std::uint32_t vertex = position == step.over.inserted ? step.candidate->vertex : *v++;
-      if (position != step.over.removed) *out++ = vertex;
+    // Straight selections, no jumps: position j of the cofacet is w or, but for that, a vertex of sigma.
+    for (int i = 0; i <= k_; ++i) {
+      const std::uint32_t before = v[i - 1], here = v[i], after = v[i + 1];
+      const int j = i + (i >= step.removed);
+      const std::uint32_t old = i >= step.removed ? (j > step.inserted ? here : after) : (j > step.inserted ? before : here);
+      out[i] = j == step.inserted ? candidate.vertex : old;
     }
   }
-  simplices_.set_flag(simplex.id, step.candidate->flag);
-  simplices_.set_flag(id, step.over.number);
+  simplices_.set_flag(simplex.id, candidate.flag);
+  simplices_.set_flag(id, step.flag);
 }
 
-// x = b + Lambda (sum_q lambda_q v_q), where coordinate c of the sum is v_0[c] plus the weights of the vertices after
-// its part.
-template <class Index, int kDim>
-void Tracer<Index, kDim>::report_point(const Pending& simplex, int lane) {
+// lambda of a simplex that the kernel has factored.
+template <class Shape>
+void Tracer<Shape>::take_weights(const Pending& simplex, int lane) {
   if (kernel_.reliable(lane)) {
     for (int q = 0; q <= k_; ++q) weights_[q] = std::max(kernel_.weight(lane, q), 0.0);
   } else {
     for (int q = 0; q <= k_; ++q) columns_[q] = value(simplex.vertices[q]);
     weights_ = exact_weights(columns_);
   }
+}
+
+// x = b + Lambda (sum_q lambda_q v_q), where coordinate c of the sum is v_0[c] plus the weights of the vertices after
+// its part.
+template <class Shape>
+void Tracer<Shape>::report_point(const Pending& simplex) {
   double total = 0;
   for (int q = k_; q >= 0; --q) {
     sums_[q] = total;
@@ -322,115 +483,83 @@ void Tracer<Index, kDim>::report_point(const Pending& simplex, int lane) {
   }
 }
 
-template <class Index, int kDim>
-void Tracer<Index, kDim>::process(std::size_t first, std::size_t count) {
+template <class Shape>
+void Tracer<Shape>::process(std::size_t first, std::size_t count, std::size_t stride) {
   candidates_.clear();
-  candidate_begin_.clear();
   for (std::size_t i = 0; i < count; ++i) {
-    candidate_begin_.push_back(candidates_.size());
-    list_cofacets(pending(first + i), i);
+    candidate_begin_[i] = candidates_.size();
+    batch_[i] = pending(first + i * stride);
+    if constexpr (kShort)
+      list_cofacets_short(batch_[i], i);
+    else
+      list_cofacets(batch_[i], i);
   }
-  candidate_begin_.push_back(candidates_.size());
-
-  for (std::size_t i = 0; i < count; ++i) {
-    const Pending simplex = pending(first + i);
-    const coxeter::PartLists lists = part_lists(i);
-    for (std::size_t j = candidate_begin_[i]; j < candidate_begin_[i + 1]; ++j) {
-      Candidate& candidate = candidates_[j];
-      // w = v_q + e(A), or v_0 - e(B) if that is below v_0.
-      const std::int32_t* z = vertices_.coordinates(simplex.vertices[candidate.new_base ? 0 : candidate.part]);
-      const std::int32_t step = candidate.new_base ? -1 : 1;
-      if (d_ <= coxeter::kMaxBitsDim) {
-        for (int c = 0; c < d_; ++c) z_[c] = z[c] + step * static_cast<std::int32_t>(candidate.special >> c & 1);
-      } else {
-        std::copy_n(z, int{d_}, z_.begin());
-        const std::uint16_t* part = lists.part(static_cast<int>(candidate.part));
-        std::uint32_t half = candidate.split;
-        if (candidate.new_base) half = ~half & ((std::uint32_t{1} << lists.size(static_cast<int>(candidate.part))) - 1);
-        for (; half != 0; half &= half - 1) z_[part[std::countr_zero(half)]] += step;
-      }
-      candidate.vertex = vertices_.template intern<kDim>(z_.data(), candidate.form);
-    }
-  }
+  candidate_begin_[count] = candidates_.size();
+  look_up_vertices();
   evaluate_new_vertices();
   points_.extend(simplices_.size() * d_ - points_.size());
+  const bool boxed = !outside_.empty();
 
   for (std::size_t group = 0; group < count; group += kLanes) {
     const int lanes = static_cast<int>(std::min<std::size_t>(kLanes, count - group));
-    Pending simplex[kLanes];
-    std::size_t next[kLanes];
+    const Pending* const simplex = batch_ + group;
+    open_.clear();
+    std::uint32_t* const open = open_.extend(candidate_begin_[group + lanes] - candidate_begin_[group]);
+    std::size_t num_open = 0;
     for (int lane = 0; lane < lanes; ++lane) {
-      simplex[lane] = pending(first + group + lane);
-      next[lane] = candidate_begin_[group + lane];
-      for (int q = 0; q <= k_; ++q) kernel_.set_vertex(lane, q, value(simplex[lane].vertices[q]));
+      open_begin_[lane] = num_open;
+      const std::uint64_t* const flags = simplices_.flags(simplex[lane].id);
+      for (std::size_t j = candidate_begin_[group + lane]; j < candidate_begin_[group + lane + 1]; ++j) {
+        const Candidate& candidate = candidates_[j];
+        const bool outside = boxed && outside_[candidate.vertex];
+        cut_by_box_ |= outside;
+        open[num_open] = static_cast<std::uint32_t>(j);
+        // Another simplex of this batch may have crossed the same cofacet from its other side.
+        num_open += !outside & !(flags[candidate.flag / 64] >> (candidate.flag % 64) & 1);
+      }
     }
-    kernel_.factor();
-    for (int lane = 0; lane < lanes; ++lane) report_point(simplex[lane], lane);
-
-    for (;;) {
-      const Candidate* current[kLanes] = {};
-      bool any = false;
-      for (int lane = 0; lane < lanes; ++lane) {
-        for (std::size_t& j = next[lane]; j < candidate_begin_[group + lane + 1]; ++j) {
-          const Candidate& candidate = candidates_[j];
-          if (!outside_.empty() && outside_[candidate.vertex]) {
-            cut_by_box_ = true;
-            continue;
-          }
-          // Another simplex of this batch may have crossed the same cofacet from its other side.
-          if (simplices_.flag(simplex[lane].id, candidate.flag)) continue;
-          current[lane] = &candidate;
-          kernel_.set_candidate(lane, value(candidate.vertex));
-          any = true;
-          ++j;
-          break;
-        }
+    open_begin_[lanes] = num_open;
+    find_leaving(simplex, lanes);
+    for (std::size_t begin = 0; begin < num_open; begin += kAhead) {
+      const std::size_t end = std::min(begin + kAhead, num_open);
+      for (std::size_t i = begin; i < end; ++i) {
+        const Candidate& candidate = candidates_[open[i]];
+        prepare(batch_[candidate.slot], candidate, steps_[i - begin]);
       }
-      if (!any) break;
-      kernel_.pivot();
-      for (int lane = 0; lane < lanes; ++lane) {
-        if (current[lane] == nullptr) continue;
-        int leaving = kernel_.leaving(lane);
-        if (leaving == BarycentricKernel::kUndecided) {
-          for (int q = 0; q <= k_; ++q) columns_[q] = value(simplex[lane].vertices[q]);
-          leaving = exactly_leaving(columns_, value(current[lane]->vertex));
-          ++exact_decisions_;
-        }
-        prepare(simplex[lane], group + lane, *current[lane], leaving, steps_[lane]);
+      for (std::size_t i = begin; i < end; ++i) (void)simplices_.guess(steps_[i - begin].hash);
+      for (std::size_t i = begin; i < end; ++i) {
+        const Candidate& candidate = candidates_[open[i]];
+        const Pending& from = batch_[candidate.slot];
+        if (!simplices_.flag(from.id, candidate.flag)) take(from, candidate, steps_[i - begin]);
       }
-      for (int lane = 0; lane < lanes; ++lane)
-        if (current[lane] != nullptr && !simplices_.flag(simplex[lane].id, current[lane]->flag))
-          take(simplex[lane], steps_[lane]);
     }
   }
 }
 
 // The first simplex of a trace. False when it is known already.
-template <class Index, int kDim>
-bool Tracer<Index, kDim>::start_from(const Crossing& crossing) {
+template <class Shape>
+bool Tracer<Shape>::start_from(const Crossing& crossing) {
   std::vector<std::int32_t> z = crossing.base;
   std::vector<std::uint32_t> ids(k_ + 1);
-  std::uint64_t hash = 0;
   std::uint64_t* key = steps_[0].key;
   std::fill_n(key, simplices_.key_words(), 0);
   for (int c = 0; c < d_; ++c) SimplexTable<Index>::parts_of(key)[c] = static_cast<Index>(crossing.parts[c]);
   for (int q = 0; q <= k_; ++q) {
     const std::uint64_t form = vertices_.form_of(z.data());
     ids[q] = vertices_.intern(z.data(), form);
-    hash += coxeter::mix64(form);
     for (int c = 0; c < d_; ++c) z[c] += crossing.parts[c] == q;
   }
   SimplexTable<Index>::set_base(key, ids[0]);
   evaluate_new_vertices();
   const std::size_t known = simplices_.size();
-  const std::uint32_t id = simplices_.intern(key, hash);
+  const std::uint32_t id = simplices_.intern(key, simplices_.hash_of(key));
   if (id < known) return false;
-  std::copy(ids.begin(), ids.end(), enqueue(id, hash));
+  std::copy(ids.begin(), ids.end(), enqueue(id));
   return true;
 }
 
-template <class Index, int kDim>
-bool Tracer<Index, kDim>::should_stop() {
+template <class Shape>
+bool Tracer<Shape>::should_stop() {
   const double now = seconds();
   if (simplices_.size() >= options_.max_simplices)
     stop_ = StopReason::kMaxSimplices;
@@ -442,41 +571,51 @@ bool Tracer<Index, kDim>::should_stop() {
 }
 
 // Breadth first until nothing is left, or a limit. Points of simplices still waiting at a limit are filled in as well.
-template <class Index, int kDim>
-bool Tracer<Index, kDim>::grow() {
+template <class Shape>
+bool Tracer<Shape>::grow() {
   while (!next_queue_.empty()) {
     queue_.swap(next_queue_);
     next_queue_.clear();
     const std::size_t count = queue_.size() / queue_stride();
-    for (std::size_t first = 0; first < count; first += kBatch) {
-      if (should_stop()) {
-        // What waits is part of what was found: it has its points, but its cofacets are not crossed.
-        const std::size_t left = count - first;
-        next_queue_.append(&queue_[first * queue_stride()], left * queue_stride());
-        queue_.swap(next_queue_);
-        points_.extend(simplices_.size() * d_ - points_.size());
-        for (std::size_t i = 0; i < queue_.size() / queue_stride(); ++i) {
-          const Pending simplex = pending(i);
-          for (int q = 0; q <= k_; ++q) kernel_.set_vertex(0, q, value(simplex.vertices[q]));
-          kernel_.factor();
-          report_point(simplex, 0);
+    for (std::size_t first = 0; first < count; first += kStride * kBatch) {
+      const std::size_t stretch = std::min(kStride * kBatch, count - first);
+      const std::size_t stride = (stretch + kBatch - 1) / kBatch;
+      for (std::size_t i = 0; i < stride; ++i) {
+        if (should_stop()) {
+          report_waiting(first);
+          return false;
         }
-        return false;
+        process(first + i, (stretch - i + stride - 1) / stride, stride);
       }
-      process(first, std::min(kBatch, count - first));
     }
   }
   return true;
 }
 
-template <class Index, int kDim>
-TraceResult Tracer<Index, kDim>::run(std::span<const double> seed_points) {
+// At a limit: what waits in the queue, from `first` on, is part of what was found. It gets its points, though its
+// cofacets are not crossed. (Some may have theirs already.)
+template <class Shape>
+void Tracer<Shape>::report_waiting(std::size_t first) {
+  next_queue_.append(&queue_[first * queue_stride()], queue_.size() - first * queue_stride());
+  queue_.swap(next_queue_);
+  points_.extend(simplices_.size() * d_ - points_.size());
+  open_begin_[0] = open_begin_[1] = 0;
+  for (std::size_t i = 0; i < queue_.size() / queue_stride(); ++i) {
+    const Pending simplex = pending(i);
+    find_leaving(&simplex, 1);
+  }
+}
+
+template <class Shape>
+TraceResult Tracer<Shape>::run(std::span<const double> seed_points) {
+  partitions_.resize(kShort ? kBatch : 0);
+  subset_forms_ = SubsetForms(vertices_.weights(), kShort ? int{d_} : 0);
   elements_.resize(kBatch * (d_ + 1));
   starts_.resize(kBatch * (k_ + 2));
   numbers_.resize(kBatch * (k_ + 2));
-  const std::size_t key_room = simplices_.key_words() + coxeter::kStepSlack * sizeof(Index) / 8 + 2;
-  keys_.assign(kLanes * key_room, 0);
-  for (int lane = 0; lane < kLanes; ++lane) steps_[lane].key = &keys_[lane * key_room];
+  const std::size_t key_room = simplices_.key_words() + 3;  // the short form writes 16 part numbers
+  keys_.assign(kAhead * key_room, 0);
+  for (std::size_t i = 0; i < kAhead; ++i) steps_[i].key = &keys_[i * key_room];
   form_sums_.resize(std::size_t{2} << (d_ - k_));
   bit_sums_.resize(std::size_t{2} << (d_ - k_));
   z_.resize(d_);
@@ -517,8 +656,8 @@ TraceResult Tracer<Index, kDim>::run(std::span<const double> seed_points) {
 }
 
 // Puts everything into canonical order.
-template <class Index, int kDim>
-TraceResult Tracer<Index, kDim>::result() {
+template <class Shape>
+TraceResult Tracer<Shape>::result() {
   TraceResult out;
   out.ambient_dim_ = d_;
   out.codim_ = k_;
@@ -529,13 +668,19 @@ TraceResult Tracer<Index, kDim>::result() {
   next_queue_.release();
   simplices_.release_index();
 
-  out.vertex_coordinates_ = vertices_.take_coordinates();
+  vertices_.release_index();
+  const auto num_vertices = static_cast<std::uint32_t>(vertices_.size());
+  std::int32_t* coordinates = out.vertex_coordinates_.extend(std::size_t{num_vertices} * d_);
+  for (std::uint32_t i = 0; i < num_vertices; ++i)
+    std::copy_n(vertices_.coordinates(i), int{d_}, coordinates + std::size_t{i} * d_);
   const std::vector<std::uint32_t> vertex_order = lexicographic_order(out.vertex_coordinates_, d_);
   std::vector<std::uint32_t> rank(vertex_order.size());
   for (std::size_t i = 0; i < vertex_order.size(); ++i) rank[vertex_order[i]] = static_cast<std::uint32_t>(i);
   permute_rows(out.vertex_coordinates_.data(), d_, vertex_order);
-  permute_rows(values_.data(), k_, vertex_order);
-  out.vertex_values_ = std::move(values_);
+  double* values = out.vertex_values_.extend(std::size_t{num_vertices} * k_);
+  for (std::uint32_t i = 0; i < num_vertices; ++i)
+    std::copy_n(value(vertex_order[i]), int{k_}, values + std::size_t{i} * k_);
+  vertices_.release();
 
   const auto count = static_cast<std::uint32_t>(simplices_.size());
   const std::vector<std::uint32_t> order = canonical_order(
@@ -590,24 +735,18 @@ void check_arguments(const Function& f, const coxeter::Triangulation& triangulat
 TraceResult trace(const Function& f, const coxeter::Triangulation& triangulation, std::span<const double> seed_points,
                   const TraceOptions& options) {
   check_arguments(f, triangulation, seed_points, options);
-  auto run = [&]<class Index, int kDim>() { return Tracer<Index, kDim>(f, triangulation, options).run(seed_points); };
-  if (f.codim() >= TraceResult::kFirstWideCodim) return run.template operator()<std::uint16_t, 0>();
-  switch (f.ambient_dim()) {
-    case 3:
-      return run.template operator()<std::uint8_t, 3>();
-    case 4:
-      return run.template operator()<std::uint8_t, 4>();
-    case 5:
-      return run.template operator()<std::uint8_t, 5>();
-    case 6:
-      return run.template operator()<std::uint8_t, 6>();
-    case 8:
-      return run.template operator()<std::uint8_t, 8>();
-    case 10:
-      return run.template operator()<std::uint8_t, 10>();
-    default:
-      return run.template operator()<std::uint8_t, 0>();
-  }
+  auto run = [&]<class Shape>() { return Tracer<Shape>(f, triangulation, options).run(seed_points); };
+  const int d = f.ambient_dim(), k = f.codim();
+  if (k >= TraceResult::kFirstWideCodim) return run.template operator()<Shape<std::uint16_t, false>>();
+  if (d > coxeter::kMaxShortDim || d - k > coxeter::kMaxShortExcess)
+    return run.template operator()<Shape<std::uint8_t, false>>();
+  // Loops over d and k are straight code for these.
+  if (d == 3 && k == 1) return run.template operator()<Shape<std::uint8_t, true, 3, 1>>();
+  if (d == 4 && k == 2) return run.template operator()<Shape<std::uint8_t, true, 4, 2>>();
+  if (d == 6 && k == 3) return run.template operator()<Shape<std::uint8_t, true, 6, 3>>();
+  if (d == 8 && k == 6) return run.template operator()<Shape<std::uint8_t, true, 8, 6>>();
+  if (d == 10 && k == 8) return run.template operator()<Shape<std::uint8_t, true, 10, 8>>();
+  return run.template operator()<Shape<std::uint8_t, true>>();
 }
 
 }  // namespace whitney

@@ -114,7 +114,7 @@ class TraceResult {
   double seconds = 0;
 
  private:
-  template <class Index, int kDim>
+  template <class Shape>
   friend class Tracer;
 
   int ambient_dim_ = 0, codim_ = 0;

@@ -134,7 +134,7 @@ TriangulateResult triangulate(const Submanifold& manifold, const Bending& bendin
     std::vector<std::uint32_t> starts;
     for (std::size_t i = 0; i < feet.size() / d; ++i) {
       const std::uint32_t s = perturbation::find_start(near, std::span<const double>(feet).subspan(i * d, d));
-      if (s < near.num_simplices() && std::find(starts.begin(), starts.end(), s) == starts.end()) starts.push_back(s);
+      if (std::find(starts.begin(), starts.end(), s) == starts.end()) starts.push_back(s);
     }
     return starts;
   };
@@ -153,6 +153,16 @@ TriangulateResult triangulate(const Submanifold& manifold, const Bending& bendin
       repair_options.max_simplices = options.max_simplices;
       repair_options.keep_going = keep_going;
       result.rounds = perturbation::repair(near, starts, repair_options).rounds;
+    } else if (options.scheme == TriangulateOptions::Scheme::kSequential && !starts.empty()) {
+      perturbation::SequentialOptions sequential_options;
+      sequential_options.max_displacement = options.displacement_fraction * width / 2;
+      sequential_options.min_distance = 1;
+      sequential_options.rng_seed = options.rng_seed;
+      sequential_options.max_rounds = options.max_rounds;
+      sequential_options.max_simplices = options.max_simplices;
+      sequential_options.keep_going = keep_going;
+      for (const auto& round : perturbation::sequential(near, starts, sequential_options).rounds)
+        result.rounds.push_back({round.simplices, round.failing, round.worst_margin, false});
     }
     std::vector<std::uint32_t> moved;
     for (std::uint32_t v = 0; v < near.num_vertices(); ++v)

@@ -3,6 +3,7 @@
 
 #include <coxeter/triangulation.h>
 #include <perturbation/repair.h>
+#include <perturbation/sequential.h>
 #include <perturbation/verdict.h>
 #include <whitney/cell_complex.h>
 #include <whitney/submanifold.h>
@@ -25,8 +26,9 @@ struct TriangulateProgress {
 };
 
 struct TriangulateOptions {
-  /// How the vertices are displaced: not at all, or by repair (see perturbation/repair.h).
-  enum class Scheme { kNone, kRepair };
+  /// How the vertices are displaced: not at all, by repair (see perturbation/repair.h), or by the sequential scheme of
+  /// BKW20 (see perturbation/sequential.h: small codimension, smaller edge lengths).
+  enum class Scheme { kNone, kRepair, kSequential };
   Scheme scheme = Scheme::kRepair;
   /// No vertex moves further than this fraction of half the width of the d-simplices; below 1, so that the
   /// triangulation stays embedded.

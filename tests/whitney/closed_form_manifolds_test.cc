@@ -47,7 +47,7 @@ TEST(ClosedFormManifolds, TheReachIsTight) {
     EXPECT_EQ(bending.source, Bending::Source::kProven);
     EXPECT_NEAR(bending.reach, c.reach, 1e-15 * c.reach);
     EXPECT_EQ(bending.curvature_radius, bending.reach);
-    const Feet feet = random_feet(c.manifold, c.reach, 1500);
+    const Feet feet = random_feet(c.manifold, c.reach, 600);
     const FeetView view{c.manifold.ambient_dim(), c.manifold.intrinsic_dim(), feet.points, feet.frames, feet.errors};
     EXPECT_TRUE(check_reach(view, bending.reach).consistent());
     EXPECT_FALSE(check_reach(view, 1.05 * bending.reach).consistent());

@@ -50,7 +50,7 @@ TEST(MatrixManifolds, TheReachIsTight) {
     EXPECT_EQ(bending.source, Bending::Source::kProven);
     EXPECT_NEAR(bending.reach, c.reach, 1e-15);
     EXPECT_LE(bending.reach * bending.reach, std::round(2 * c.reach * c.reach) / 2);
-    const Feet feet = random_feet(c.manifold, 0.5 * c.reach, 1500);
+    const Feet feet = random_feet(c.manifold, 0.5 * c.reach, 600);
     const FeetView view{c.ambient_dim, c.intrinsic_dim, feet.points, feet.frames, feet.errors};
     EXPECT_TRUE(check_reach(view, bending.reach).consistent());
     // Random pairs come close to the bound where it is attained by many; SO(4) and V(2,4) have better pairs to offer.

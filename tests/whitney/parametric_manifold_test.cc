@@ -2,6 +2,7 @@
 #include <coxeter/error.h>
 #include <gtest/gtest.h>
 #include <whitney/closed_form_manifolds.h>
+#include <whitney/estimate_bending.h>
 #include <whitney/immersed_surfaces.h>
 #include <whitney/parametric_manifold.h>
 #include <whitney/reach_claim.h>
@@ -77,8 +78,9 @@ TEST(ParametricManifold, TheClosestPointIsGlobal) {
 
 TEST(ParametricManifold, MeasuredReach) {
   const auto check = [](const Submanifold& M, double reach, double curvature_radius) {
-    const Bending bending = M.bending().value();
-    EXPECT_EQ(bending.source, Bending::Source::kEstimated);
+    EXPECT_EQ(M.bending()->source, Bending::Source::kEstimated);
+    EXPECT_NEAR(M.bending()->reach, reach, 1e-5 * reach);
+    const Bending bending = estimate_bending(M).bending;
     EXPECT_NEAR(bending.reach, reach, 1e-5 * reach);
     EXPECT_NEAR(bending.curvature_radius, curvature_radius, 1e-5 * curvature_radius);
     const Feet feet = random_feet(M, reach, 1500);

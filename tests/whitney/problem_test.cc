@@ -136,7 +136,7 @@ TEST(Problem, Examples) {
     ++count;
     SCOPED_TRACE(entry.path());
     const Problem p = read_problem(entry.path());
-    if (p.function) EXPECT_EQ(p.box.size(), p.ambient_dim());
+    EXPECT_EQ(p.box.size(), p.function ? p.ambient_dim() : 0);
     EXPECT_GT(p.triangulation.edge_length.value_or(0), 0);
     const coxeter::Triangulation t = make_triangulation(p.triangulation, p.ambient_dim(), *p.triangulation.edge_length);
     EXPECT_NEAR(t.edge_length(), *p.triangulation.edge_length, 1e-12);

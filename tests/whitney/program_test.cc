@@ -164,9 +164,27 @@ TEST_F(Program, AMeshThatIsNoManifoldIsStatusThree) {
   EXPECT_TRUE(says("cut.off")) << output_;
 }
 
+TEST_F(Program, PrintsTheParametersOfThePaper) {
+  ASSERT_EQ(run("parameters --ambient 3 --intrinsic 2 --stats " + path("p.json")), 0) << output_;
+  for (const char* text : {"L/rch", "(12)", "as printed", "corrected", "-31.49", "-33.88", "alpha_1"})
+    EXPECT_TRUE(says(text)) << text << output_;
+  const std::string stats = content(path("p.json"));
+  for (const char* text : {"\"ambient_dim\": 3", "\"intrinsic_dim\": 2", "\"symbol\": \"c~\"", "\"equation\": \"(6)\"",
+                           "\"meaning\": ", "\"log10_as_printed\": -31.4", "\"log10_corrected\": -33.8"})
+    EXPECT_NE(stats.find(text), std::string::npos) << text << stats;
+  EXPECT_EQ(run("parameters --ambient 3 --intrinsic 3"), 1);
+  EXPECT_TRUE(says("intrinsic dimension < ambient dimension")) << output_;
+  EXPECT_EQ(run("parameters --ambient 1000 --intrinsic 2"), 1);
+  EXPECT_TRUE(says("140")) << output_;
+  EXPECT_EQ(run("parameters --ambient 3"), 1);
+  EXPECT_TRUE(says("--intrinsic")) << output_;
+  EXPECT_EQ(run("parameters --ambient three --intrinsic 2"), 1);
+  EXPECT_EQ(run("parameters --ambient 3 --intrinsic 2 --stats " + path("no/folder/p.json")), 1);
+}
+
 TEST_F(Program, HelpAndVersion) {
   EXPECT_EQ(run("--help"), 0);
-  EXPECT_TRUE(says("trace") && says("check"));
+  EXPECT_TRUE(says("trace") && says("check") && says("parameters"));
   EXPECT_EQ(run("trace --help"), 0);
   EXPECT_TRUE(says("--edge-length"));
   EXPECT_EQ(run("--version"), 0);

@@ -53,4 +53,10 @@ struct CheckArguments {
 };
 int run_check(const CheckArguments& arguments);
 
+struct ParametersArguments {
+  int ambient_dim = 0, intrinsic_dim = 0;
+  std::string stats;
+};
+int run_parameters(const ParametersArguments& arguments);
+
 }  // namespace whitney::cli

@@ -83,8 +83,9 @@ int main(int argc, char** argv) {
   triangulate_command->add_flag("--auto-refine", triangulate.auto_refine,
                                 "halve the edge length until the result is certified (at most 8 attempts)");
   triangulate_command
-      ->add_option("--scheme", triangulate.scheme, "how the vertices of the triangulation are displaced")
-      ->check(CLI::IsMember({"repair", "none"}))
+      ->add_option("--scheme", triangulate.scheme, "how the vertices of the triangulation are displaced: repair, sequential (BKW20's own; needs smaller "
+                   "edge lengths), none")
+      ->check(CLI::IsMember({"repair", "sequential", "none"}))
       ->capture_default_str();
   triangulate_command->add_option("--max-rounds", triangulate.max_rounds, "rounds of the repair")
       ->check(CLI::NonNegativeNumber)
@@ -116,6 +117,14 @@ int main(int argc, char** argv) {
   check_command->add_option("--stats", check.stats, "write the results to this JSON file");
   check_command->add_flag("-q,--quiet", check.quiet, "print nothing but errors");
 
+  ParametersArguments parameters;
+  CLI::App* parameters_command = app.add_subcommand(
+      "parameters", "The constants of Boissonnat, Kachanovich and Wintraecken, as printed and corrected, in log10");
+  parameters_command->add_option("--ambient", parameters.ambient_dim, "dimension d of the ambient space")->required();
+  parameters_command->add_option("--intrinsic", parameters.intrinsic_dim, "dimension n of the manifold, 1 <= n < d")
+      ->required();
+  parameters_command->add_option("--stats", parameters.stats, "write the constants to this JSON file");
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -124,6 +133,7 @@ int main(int argc, char** argv) {
   try {
     if (trace_command->parsed()) return run_trace(trace);
     if (triangulate_command->parsed()) return run_triangulate(triangulate);
+    if (parameters_command->parsed()) return run_parameters(parameters);
     return run_check(check);
   } catch (const std::bad_alloc&) {
     std::cerr << "whitney: out of memory; a larger --edge-length or --max-simplices helps\n";

@@ -105,8 +105,9 @@ int run_triangulate(const TriangulateArguments& arguments) {
 
   InterruptGuard guard;
   ScaleSearchOptions options;
-  options.triangulate.scheme =
-      arguments.scheme == "none" ? TriangulateOptions::Scheme::kNone : TriangulateOptions::Scheme::kRepair;
+  options.triangulate.scheme = arguments.scheme == "none"         ? TriangulateOptions::Scheme::kNone
+                               : arguments.scheme == "sequential" ? TriangulateOptions::Scheme::kSequential
+                                                                  : TriangulateOptions::Scheme::kRepair;
   options.triangulate.rng_seed = problem.triangulation.rng_seed;
   options.triangulate.max_rounds = arguments.max_rounds;
   options.triangulate.max_simplices = arguments.max_simplices;
