@@ -105,6 +105,16 @@ Preimage Correspondence::from_manifold(std::span<const double> y) const {
   for (const KdTree::Neighbor& neighbor : near) {
     const double limit = radius_[neighbor.index] + reached;
     if (neighbor.squared_distance > limit * limit) continue;
+    // The solution has the tangential coordinates of the foot, so the barycentre cannot be far in these.
+    const double radius = radius_[neighbor.index] * (1 + 1e-9);
+    const double* centre = barycentres_.point(neighbor.index).data();
+    double tangential = 0;
+    for (int a = 0; a < n; ++a) {
+      double along = 0;
+      for (int c = 0; c < d; ++c) along += frame[a * d + c] * (centre[c] - foot[c]);
+      tangential += along * along;
+    }
+    if (tangential > radius * radius) continue;
     const std::uint32_t* v = &mesh_.simplices[neighbor.index * (n + 1)];
     const auto vertex = [&](int q) {
       return Eigen::Map<const Eigen::VectorXd>(&mesh_.points[std::size_t{v[q]} * d], d);
