@@ -88,13 +88,16 @@ double tangent_angle(const SimplicialMesh& mesh, std::size_t s, const double* fr
   return angle_of(edges_of(mesh, s), frame);
 }
 
-ComplexQuality complex_quality(const SimplicialMesh& mesh, const Submanifold& manifold) {
+ComplexQuality complex_quality(const SimplicialMesh& mesh, const Submanifold& manifold, std::size_t max_feet) {
   const int d = mesh.ambient_dim, n = mesh.dim;
   if (manifold.ambient_dim() != d || manifold.intrinsic_dim() != n)
     throw InvalidInput("complex_quality: the mesh and the manifold have different dimensions");
+  if (max_feet < 1) throw InvalidInput("complex_quality: max_feet must be at least 1");
   ComplexQuality quality;
   std::vector<double> thicknesses, angles, distances, x(d), point(d), frame(static_cast<std::size_t>(d) * d);
   std::vector<char> used(mesh.num_points(), 0);
+  const auto step = [&](std::size_t count) { return count <= max_feet ? 1 : (count - 1) / max_feet + 1; };
+  const std::size_t simplex_step = step(mesh.num_simplices()), vertex_step = step(mesh.num_points());
   EdgeRange range;
   FootErrors errors;
   for (std::size_t s = 0; s < mesh.num_simplices(); ++s) {
@@ -109,13 +112,16 @@ ComplexQuality complex_quality(const SimplicialMesh& mesh, const Submanifold& ma
       used[v] = 1;
       for (int c = 0; c < d; ++c) x[c] += mesh.points[std::size_t{v} * d + c] / (n + 1);
     }
+    if (s % simplex_step != 0) continue;
+    ++quality.feet;
     if (manifold.project(x, point, frame, errors))
       angles.push_back(angle_of(edges, frame.data()));
     else
       ++quality.feet_missing;
   }
   for (std::size_t v = 0; v < used.size(); ++v) {
-    if (!used[v]) continue;
+    if (!used[v] || v % vertex_step != 0) continue;
+    ++quality.feet;
     const std::span<const double> at(&mesh.points[v * d], std::size_t(d));
     if (!manifold.project(at, point, frame, errors)) {
       ++quality.feet_missing;

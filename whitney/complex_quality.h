@@ -5,6 +5,7 @@
 #include <whitney/submanifold.h>
 
 #include <cstddef>
+#include <limits>
 
 namespace whitney {
 
@@ -19,13 +20,16 @@ struct ComplexQuality {
   double angle_max = 0, angle_median = 0;
   /// Distance of the vertices from M (lengths).
   double vertex_distance_max = 0, vertex_distance_median = 0;
+  std::size_t feet = 0;          ///< barycentres and vertices that the oracle was asked about
   std::size_t feet_missing = 0;  ///< barycentres and vertices without a foot; they count for nothing above
 };
 
-/// The quality of a mesh of n-simplices in R^d near M (n its dimension). One call of the oracle per vertex and simplex.
+/// The quality of a mesh of n-simplices in R^d near M (n its dimension). One call of the oracle per vertex and simplex;
+/// where there are more than max_feet (at least 1) of either, only for every second, third, .. of them.
 /// Vertices that no simplex uses are left out. An empty mesh has quality 0.
 /// Throws InvalidInput when the dimensions differ.
-ComplexQuality complex_quality(const SimplicialMesh& mesh, const Submanifold& manifold);
+ComplexQuality complex_quality(const SimplicialMesh& mesh, const Submanifold& manifold,
+                               std::size_t max_feet = std::numeric_limits<std::size_t>::max());
 
 /// Smallest altitude / longest edge of simplex s; 0 when it is degenerate, 1 for a point.
 double thickness(const SimplicialMesh& mesh, std::size_t s);

@@ -67,6 +67,19 @@ TEST(ComplexQuality, OfWhitneysComplex) {
   }
 }
 
+TEST(ComplexQuality, SamplesWhenThereAreTooMany) {
+  const WhitneyCase c = whitney_case("sphere", 0.4);
+  const SimplicialMesh mesh = barycentric_subdivision(c.result.complex);
+  const ComplexQuality all = complex_quality(mesh, c.manifold), some = complex_quality(mesh, c.manifold, 100);
+  EXPECT_EQ(all.feet, mesh.num_simplices() + mesh.num_points());
+  EXPECT_LE(some.feet, 200u);
+  EXPECT_GT(some.feet, 100u);
+  EXPECT_EQ(some.thickness_min, all.thickness_min);
+  EXPECT_LE(some.angle_max, all.angle_max);
+  EXPECT_GT(some.angle_median, all.angle_median / 2);
+  EXPECT_THROW(complex_quality(mesh, c.manifold, 0), InvalidInput);
+}
+
 TEST(ComplexQuality, MissingFeetAreCounted) {
   const SimplicialMesh mesh{3, 2, {0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 1, 2}};
   EXPECT_EQ(complex_quality(mesh, named_submanifold("sphere")).feet_missing, 1u);
