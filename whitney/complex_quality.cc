@@ -54,14 +54,23 @@ double thickness_of(const Matrix& edges, double longest) {
   return 1 / (steepest * longest);
 }
 
+/// Of a symmetric positive semidefinite matrix; with full relative accuracy.
+double largest_eigenvalue(const Matrix& a) {
+  if (a.rows() == 1) return std::max(0.0, a(0, 0));
+  if (a.rows() == 2) return (a(0, 0) + a(1, 1) + std::hypot(a(0, 0) - a(1, 1), 2 * a(0, 1))) / 2;
+  return std::max(0.0, Eigen::SelfAdjointEigenSolver<Matrix>(a, Eigen::EigenvaluesOnly).eigenvalues()(a.rows() - 1));
+}
+
 double angle_of(const Matrix& edges, const double* frame) {
   const auto d = edges.rows(), n = edges.cols();
   const Eigen::ColPivHouseholderQR<Matrix> qr(edges);
   if (qr.rank() < n) return std::numbers::pi / 2;
   const Matrix basis = qr.householderQ() * Matrix::Identity(d, n);
   const Eigen::Map<const RowMajor> rows(frame, d, d);
-  // The sine loses its digits near pi/2, the cosine near 0.
-  const double sine = Matrix(rows.bottomRows(d - n) * basis).jacobiSvd().singularValues()(0);
+  const Matrix off = rows.bottomRows(d - n) * basis;
+  const double sine = std::sqrt(largest_eigenvalue(off.transpose() * off));
+  if (sine < 0.9) return std::asin(sine);
+  // There the sine loses its digits.
   const double cosine = Matrix(rows.topRows(n) * basis).jacobiSvd().singularValues()(n - 1);
   return std::atan2(sine, cosine);
 }

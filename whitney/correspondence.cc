@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 namespace whitney {
@@ -200,9 +201,29 @@ class AngleCheck {
     Eigen::MatrixXd corners(d, n + 1);
     for (int q = 0; q <= n; ++q)
       for (int c = 0; c < d; ++c) corners(c, q) = mesh_.points[std::size_t{mesh_.simplices[s * (n + 1) + q]} * d + c];
-    for (int q = 0; q <= n; ++q)
-      report_.angle_at_vertices_max = std::max(report_.angle_at_vertices_max, angle(s, corners.col(q)));
     return piece(s, corners, 0);
+  }
+
+  /// angle_at_vertices_max: one foot for all simplices around a vertex.
+  void look_at_vertices() {
+    const int d = mesh_.ambient_dim, size = mesh_.dim + 1;
+    std::vector<std::uint32_t> begin(mesh_.num_points() + 1, 0), star(mesh_.simplices.size());
+    for (const std::uint32_t v : mesh_.simplices) ++begin[v + 1];
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
+    for (std::size_t i = 0; i < mesh_.simplices.size(); ++i)
+      star[next[mesh_.simplices[i]]++] = static_cast<std::uint32_t>(i / size);
+    for (std::size_t v = 0; v < mesh_.num_points(); ++v) {
+      if (begin[v] == begin[v + 1]) continue;
+      FootErrors errors;
+      if (!manifold_.project({&mesh_.points[v * d], static_cast<std::size_t>(d)}, point_, frame_, errors)) {
+        ++report_.feet_missing;
+        continue;
+      }
+      for (std::uint32_t i = begin[v]; i < begin[v + 1]; ++i)
+        report_.angle_at_vertices_max =
+            std::max(report_.angle_at_vertices_max, tangent_angle(mesh_, star[i], frame_.data()));
+    }
   }
 
  private:
@@ -280,6 +301,7 @@ CorrespondenceCheck check_correspondence(const Correspondence& correspondence, c
   const Incidence cofacets = cofacets_of(lattice.facets[n], lattice.num_faces(n - 1));
 
   AngleCheck angles(correspondence, bending, options.max_depth, report);
+  angles.look_at_vertices();
   for (std::size_t s = 0; s < mesh.num_simplices(); ++s) report.steep += !angles.is_transversal(s);
 
   std::vector<double> x(d), point(d), frame(static_cast<std::size_t>(d) * d);
