@@ -26,7 +26,8 @@ struct AmbientMesh {
 /// faces. A face that M meets is represented by its vertex of K, any other by the barycentre of its displaced vertices.
 /// Source: BKW20, Sect. 2.2.
 ///
-/// Triangulation and displacements: those that `complex` came from (TriangulateResult::displacements).
+/// Triangulation and displacements: those that `complex` came from (TriangulateResult::displacements). The complex of a
+/// trace will do too, without displacements; where f vanishes at lattice vertices, simplices are degenerate.
 /// (d+1)! simplices of d + 1 indices for every n-cell: O(that) time and memory.
 /// Throws InvalidInput unless 2 <= d <= 4 and the dimensions agree.
 AmbientMesh ambient_mesh(const CellComplex& complex, const coxeter::Triangulation& triangulation,
