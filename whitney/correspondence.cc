@@ -7,6 +7,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -21,14 +22,35 @@ constexpr double kTolerance = 1e-10;
 /// Points closer than this times the longest edge are one point.
 constexpr double kMerge = 1e-7;
 
-using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxIntrinsic, kMaxIntrinsic>;
-using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxIntrinsic, 1>;
 using Frame = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
 
 double distance(const double* a, const double* b, int d) {
   double squares = 0;
   for (int c = 0; c < d; ++c) squares += (a[c] - b[c]) * (a[c] - b[c]);
   return std::sqrt(squares);
+}
+
+/// Solves an n x n system by elimination with row pivoting. system: n x (n + 1), the right side last; overwritten.
+/// False when a pivot is 0 or not a number.
+bool solve(double* system, double* x, int n) {
+  const int width = n + 1;
+  for (int c = 0; c < n; ++c) {
+    int pivot = c;
+    for (int r = c + 1; r < n; ++r)
+      if (std::abs(system[r * width + c]) > std::abs(system[pivot * width + c])) pivot = r;
+    if (!(std::abs(system[pivot * width + c]) > 0)) return false;
+    if (pivot != c) std::swap_ranges(&system[c * width], &system[c * width] + width, &system[pivot * width]);
+    for (int r = c + 1; r < n; ++r) {
+      const double factor = system[r * width + c] / system[c * width + c];
+      for (int i = c; i <= n; ++i) system[r * width + i] -= factor * system[c * width + i];
+    }
+  }
+  for (int c = n - 1; c >= 0; --c) {
+    x[c] = system[c * width + n];
+    for (int i = c + 1; i < n; ++i) x[c] -= system[c * width + i] * x[i];
+    x[c] /= system[c * width + c];
+  }
+  return true;
 }
 
 const SimplicialMesh& checked(const SimplicialMesh& mesh, const Submanifold& manifold, double distance_bound) {
@@ -93,8 +115,11 @@ Preimage Correspondence::from_manifold(std::span<const double> y) const {
     result.status = Preimage::Status::kNoFoot;
     return result;
   }
-  const Frame rows(frame.data(), d, d);
-  const Eigen::Map<const Eigen::VectorXd> p(foot.data(), d);
+  std::array<double, kMaxIntrinsic> along_foot{}, lambda{};
+  std::array<double, kMaxIntrinsic*(kMaxIntrinsic + 1)> system;
+  std::array<const double*, kMaxIntrinsic + 1> corner;
+  for (int a = 0; a < n; ++a)
+    for (int c = 0; c < d; ++c) along_foot[a] += frame[a * d + c] * foot[c];
   // Room for the rounding of the foot and of the bound.
   const double reached = distance_bound_ + 1e-9 * longest_edge_ + errors.point;
   std::vector<KdTree::Neighbor> near;
@@ -117,29 +142,33 @@ Preimage Correspondence::from_manifold(std::span<const double> y) const {
     }
     if (tangential > radius * radius) continue;
     const std::uint32_t* v = &mesh_.simplices[neighbor.index * (n + 1)];
-    const auto vertex = [&](int q) {
-      return Eigen::Map<const Eigen::VectorXd>(&mesh_.points[std::size_t{v[q]} * d], d);
-    };
-    Square system(n, n);
-    Column right(n);
+    for (int q = 0; q <= n; ++q) corner[q] = &mesh_.points[std::size_t{v[q]} * d];
     for (int a = 0; a < n; ++a) {
-      const auto tangent = rows.row(a);
-      const double origin = tangent.dot(vertex(0));
-      right(a) = tangent.dot(p) - origin;
-      for (int q = 1; q <= n; ++q) system(a, q - 1) = tangent.dot(vertex(q)) - origin;
+      const double* tangent = &frame[a * d];
+      double* row = &system[a * (n + 1)];
+      double origin = 0;
+      for (int c = 0; c < d; ++c) origin += tangent[c] * corner[0][c];
+      row[n] = along_foot[a] - origin;
+      for (int q = 1; q <= n; ++q) {
+        row[q - 1] = -origin;
+        for (int c = 0; c < d; ++c) row[q - 1] += tangent[c] * corner[q][c];
+      }
     }
-    const Column lambda = system.partialPivLu().solve(right);
-    const double first = 1 - lambda.sum();
-    double least = first;
-    for (int q = 0; q < n; ++q) least = std::min(least, lambda(q));
-    if (!(least >= -kTolerance)) continue;  // a singular system gives NaN
+    if (!solve(system.data(), lambda.data(), n)) continue;
+    double first = 1, least = 1;
+    for (int q = 0; q < n; ++q) {
+      first -= lambda[q];
+      least = std::min(least, lambda[q]);
+    }
+    least = std::min(least, first);
+    if (!(least >= -kTolerance)) continue;
     std::fill(x.begin(), x.end(), 0.0);
     std::vector<double> weights(n + 1);
     double total = 0;
-    for (int q = 0; q <= n; ++q) total += weights[q] = std::max(0.0, q == 0 ? first : lambda(q - 1));
+    for (int q = 0; q <= n; ++q) total += weights[q] = std::max(0.0, q == 0 ? first : lambda[q - 1]);
     for (int q = 0; q <= n; ++q) {
       weights[q] /= total;
-      for (int c = 0; c < d; ++c) x[c] += weights[q] * vertex(q)(c);
+      for (int c = 0; c < d; ++c) x[c] += weights[q] * corner[q][c];
     }
     const double off = distance(x.data(), foot.data(), d);
     if (!(off <= reached)) continue;
