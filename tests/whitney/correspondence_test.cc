@@ -53,7 +53,7 @@ const Shape kShapes[] = {{"sphere", 0.3, {}},
                          {"sphere", 0.2, {{"intrinsic_dim", 1}, {"ambient_dim", 4}}},
                          {"torus_of_revolution", 0.3, {}},
                          {"flat_torus", 0.25, {}},
-                         {"klein_bottle", 0.25, {}}};
+                         {"klein_bottle", 0.45, {}}};
 
 TEST(Correspondence, RoundTrips) {
   for (const Shape& shape : kShapes) {
