@@ -31,13 +31,12 @@ NearTrace trace_near(NearSimplices& near, std::span<const std::uint32_t> starts,
   };
   for (const std::uint32_t s : starts) reach(s);
   for (std::size_t next = 0; next < trace.simplices.size(); ++next) {
-    if (next >= options.max_simplices || (next % 256 == 255 && options.keep_going && !options.keep_going())) {
+    if (next >= options.max_simplices || (next % 32 == 31 && options.keep_going && !options.keep_going())) {
       trace.complete = false;
       break;
     }
     const std::uint32_t s = trace.simplices[next];
-    near.evaluate(s, options.enough);
-    const std::uint32_t hit = near.evaluate(s, options.with_midpoints ? 1 : 0, options.with_midpoints).hit_facets;
+    const std::uint32_t hit = near.evaluate(s, options.enough, options.with_midpoints).hit_facets;
     for (int q = 0; q <= d; ++q)
       if (hit >> q & 1) reach(near.neighbour(s, q));
   }

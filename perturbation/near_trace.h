@@ -15,10 +15,10 @@ namespace whitney::perturbation {
 struct NearTraceOptions {
   /// Feet are tried until the margin of a simplex is at least this.
   double enough = 1.02;
-  /// Try the feet of the midpoints of edges too before a margin below 1 is accepted.
+  /// Try the feet of the midpoints of edges too before a lower margin is accepted.
   bool with_midpoints = true;
   std::size_t max_simplices = std::numeric_limits<std::size_t>::max();
-  /// Asked every few hundred simplices; false stops the trace.
+  /// Asked every few dozen simplices; false stops the trace.
   std::function<bool()> keep_going;
 };
 

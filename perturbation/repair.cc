@@ -12,6 +12,9 @@ namespace {
 /// Rounds in which the trace grows are not counted against max_rounds; this ends them all the same.
 constexpr int kMostRounds = 1000;
 
+/// keep_going is asked once in so many steps.
+constexpr std::size_t kAskEvery = 16;
+
 class Repairer {
  public:
   Repairer(NearSimplices& near, std::span<const std::uint32_t> starts, const RepairOptions& options)
@@ -67,8 +70,8 @@ class Repairer {
         reached_.assign(near_.num_simplices(), 0);
         for (const std::uint32_t s : trace.simplices) reached_[s] = 1;
         for (const std::uint32_t s : failing_) {
-          if (!going(result)) return result;
-          polish_simplex(s);
+          polish_simplex(s, result);
+          if (!result.complete) return result;
         }
       } else {
         for (const std::uint32_t s : trace.simplices) {
@@ -92,7 +95,7 @@ class Repairer {
   }
 
   bool going(RepairResult& result) {
-    if (++count_ % 64 != 0 || !options_.keep_going || options_.keep_going()) return true;
+    if (++count_ % kAskEvery != 0 || !options_.keep_going || options_.keep_going()) return true;
     result.complete = false;
     return false;
   }
@@ -222,10 +225,10 @@ class Repairer {
     return false;
   }
 
-  void polish_simplex(std::uint32_t s) {
+  void polish_simplex(std::uint32_t s, RepairResult& result) {
     KeyedRandom random = random_of(s);
     for (int attempt = 0; attempt < options_.trials; ++attempt) {
-      if (!is_reached(s)) return;
+      if (!is_reached(s) || !going(result)) return;
       const Evaluation evaluation = near_.evaluate(s, options_.accept, true);
       if (evaluation.margin >= options_.accept) return;
       Margins margins;

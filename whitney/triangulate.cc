@@ -186,6 +186,9 @@ TriangulateResult triangulate(const Submanifold& manifold, const Bending& bendin
   const std::vector<std::uint32_t> starts = find_starts(near);
   NearTraceOptions trace_options;
   trace_options.max_simplices = options.max_simplices;
+  // What was found by then is wanted even when the search was stopped, but not at any price.
+  const double deadline = result.stopped ? 1.25 * watch.seconds() + 1 : std::numeric_limits<double>::infinity();
+  trace_options.keep_going = [&] { return watch.seconds() < deadline; };
   const NearTrace trace = perturbation::trace_near(near, starts, trace_options);
   if (!trace.complete && !result.stopped) {
     result.stopped = true;

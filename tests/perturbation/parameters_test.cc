@@ -153,9 +153,10 @@ TEST(Parameters, TheJoinWithAVertexKeepsItsDistance) {
       pointers.push_back(points.data() + i * k);
       edge = std::max(edge, (points.col(i) - points.col(num)).norm());
     }
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
     std::vector<double> lambda(num + 1), x(k);
-    const double a = std::sqrt(min_norm(pointers.data(), num, k, lambda.data(), x.data()));
-    const double join = std::sqrt(min_norm(pointers.data(), num + 1, k, lambda.data(), x.data()));
+    const double a = min_norm(pointers.data(), num, k, kInfinity, lambda.data(), x.data());
+    const double join = min_norm(pointers.data(), num + 1, k, kInfinity, lambda.data(), x.data());
     const Eigen::MatrixXd face = points.leftCols(num);
     const Eigen::VectorXd vertex = points.col(num);
     const double distance = (vertex - face * face.colPivHouseholderQr().solve(vertex)).norm();

@@ -215,6 +215,68 @@ TEST_F(Program, HelpAndVersion) {
   EXPECT_TRUE(says("whitney 0."));
 }
 
+constexpr const char* kKleinBottle = R"json({"parametrization": {"parameters": ["u","v"],
+  "domain": [[0,"2*pi"],[0,"2*pi"]],
+  "map": ["(2+cos(v))*cos(u)", "(2+cos(v))*sin(u)", "sin(v)*cos(u/2)", "sin(v)*sin(u/2)"]},
+  "triangulation": {"edge_length": 0.4}})json";
+
+TEST_F(Program, TriangulatesTheKleinBottle) {
+  ASSERT_EQ(run("triangulate " + problem(kKleinBottle) + " -o " + path("k.noff") + " --stats " + path("s.json")), 0)
+      << output_;
+  EXPECT_TRUE(says("certified")) << output_;
+  EXPECT_TRUE(says("estimated")) << output_;  // the reach is
+  EXPECT_TRUE(says("closed non-orientable surface, 1 component, Euler characteristic 0")) << output_;
+  EXPECT_TRUE(says("H1 = Z + Z/2")) << output_;
+  const std::string stats = content(path("s.json"));
+  for (const char* key : {"\"verdict\": \"certified\"", "\"reach_source\": \"estimated\"", "\"margin_min\"",
+                          "\"hausdorff_bound\"", "\"orientable\": false", "\"rounds\"", "\"displacement_max\"",
+                          "\"certify\"", "\"perturb\""})
+    EXPECT_NE(stats.find(key), std::string::npos) << key;
+  EXPECT_EQ(run("check " + path("k.noff")), 0);
+  EXPECT_TRUE(says("closed non-orientable surface")) << output_;
+}
+
+TEST_F(Program, TriangulatesFromEquationsWithTheCallersReach) {
+  const std::string circle = R"("variables": ["x","y"], "equations": ["x^2+y^2-1"], "box": [[-2,2],[-2,2]])";
+  ASSERT_EQ(run("triangulate " + problem("{" + circle + R"(, "reach": 1})") + " -o " + path("c.noff")), 0) << output_;
+  EXPECT_TRUE(says("certified")) << output_;
+  EXPECT_TRUE(says("(caller)")) << output_;
+  EXPECT_TRUE(says("closed orientable curve")) << output_;
+  // Without an edge length one is searched for. With a reach that the feet contradict:
+  EXPECT_EQ(run("triangulate " + problem("{" + circle + R"(, "reach": 3})") + " --edge-length 0.3"), 3) << output_;
+  EXPECT_TRUE(says("the reach cannot be 3")) << output_;
+}
+
+TEST_F(Program, SaysWhatStandsInTheWayOfTheCertificate) {
+  const std::string sphere = R"({"named": {"name": "sphere", "intrinsic_dim": 2, "ambient_dim": 3}})";
+  EXPECT_EQ(run("triangulate " + problem(sphere) + " --edge-length 2 -o " + path("s.off") + " --stats " + path("s.json")), 3)
+      << output_;
+  EXPECT_TRUE(says("--edge-length 1")) << output_;  // what to try next
+  EXPECT_NE(content(path("s.json")).find("\"reason\": \""), std::string::npos);
+  EXPECT_EQ(run("triangulate " + problem(sphere) + " --edge-length 0.5 --scheme none"), 3) << output_;
+  EXPECT_TRUE(says("violated")) << output_;  // an edge that the sphere crosses twice
+  const std::string in_r4 = R"({"named": {"name": "sphere", "intrinsic_dim": 2, "ambient_dim": 4}})";
+  EXPECT_EQ(run("triangulate " + problem(in_r4) + " --edge-length 0.3 --scheme none"), 3) << output_;
+  EXPECT_TRUE(says("not certified")) << output_;
+  EXPECT_TRUE(says("separation (A+)")) << output_;
+  EXPECT_EQ(run("triangulate " + problem(sphere) + " --edge-length 2 --auto-refine"), 0) << output_;
+  EXPECT_TRUE(says("refined")) << output_;
+  EXPECT_EQ(run("triangulate " + problem(sphere) + " --edge-length 0.1 --max-simplices 50"), 2) << output_;
+  EXPECT_TRUE(says("max_simplices")) << output_;
+}
+
+TEST_F(Program, TriangulateNamesBadInput) {
+  EXPECT_EQ(run("triangulate " + problem(R"({"named": {"name": "sphere"}})") + " -o " + path("x.xyz")), 1);
+  EXPECT_EQ(run("triangulate " + problem(R"({"named": {"name": "moebius"}})")), 1);
+  EXPECT_TRUE(says("moebius")) << output_;
+  EXPECT_EQ(run("triangulate " + problem(R"({"named": {"name": "sphere"}, "reach": -1})")), 1);
+  EXPECT_TRUE(says("reach")) << output_;
+  EXPECT_EQ(run("triangulate " + problem(R"({"named": {"name": "sphere"}, "seed_points": [[0,0,0]]})")), 1) << output_;
+  EXPECT_TRUE(says("seed")) << output_;
+  EXPECT_EQ(run("triangulate " + path("nowhere.json")), 1);
+  EXPECT_TRUE(says("nowhere.json")) << output_;
+}
+
 }  // namespace
 
 #endif
