@@ -71,34 +71,36 @@ bool is_subcomplex(const SimplicialMesh& part, const SimplicialMesh& whole) {
   if (part.ambient_dim != whole.ambient_dim || part.points.size() > whole.points.size() || part.dim > whole.dim ||
       !std::equal(part.points.begin(), part.points.end(), whole.points.begin()))
     return false;
-  // Sorted index lists of the faces of `whole` that have only points of `part`, as many as the simplices of `part`
-  // have.
+  // The simplices of `part`, ticked off as faces of `whole` with points of `part` only.
   const int size = part.dim + 1, size_whole = whole.dim + 1;
   using Face = std::vector<std::uint32_t>;
-  std::vector<Face> faces;
+  std::vector<Face> wanted;
+  for (std::size_t s = 0; s < part.num_simplices(); ++s) {
+    wanted.emplace_back(&part.simplices[s * size], &part.simplices[s * size] + size);
+    std::sort(wanted.back().begin(), wanted.back().end());
+  }
+  std::sort(wanted.begin(), wanted.end());
+  wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+  std::vector<char> found(wanted.size(), 0);
   Face own, face(size);
+  std::vector<char> chosen;
   for (std::size_t s = 0; s < whole.num_simplices(); ++s) {
     own.clear();
     for (int q = 0; q < size_whole; ++q)
       if (const std::uint32_t v = whole.simplices[s * size_whole + q]; v < part.num_points()) own.push_back(v);
     if (static_cast<int>(own.size()) < size) continue;
     std::sort(own.begin(), own.end());
-    std::vector<char> chosen(own.size(), 0);
+    chosen.assign(own.size(), 0);
     std::fill(chosen.begin(), chosen.begin() + size, 1);
     do {
       face.clear();
       for (std::size_t q = 0; q < own.size(); ++q)
         if (chosen[q]) face.push_back(own[q]);
-      faces.push_back(face);
+      const auto at = std::lower_bound(wanted.begin(), wanted.end(), face);
+      if (at != wanted.end() && *at == face) found[static_cast<std::size_t>(at - wanted.begin())] = 1;
     } while (std::prev_permutation(chosen.begin(), chosen.end()));
   }
-  std::sort(faces.begin(), faces.end());
-  for (std::size_t s = 0; s < part.num_simplices(); ++s) {
-    face.assign(&part.simplices[s * size], &part.simplices[s * size] + size);
-    std::sort(face.begin(), face.end());
-    if (!std::binary_search(faces.begin(), faces.end(), face)) return false;
-  }
-  return true;
+  return std::find(found.begin(), found.end(), 0) == found.end();
 }
 
 std::size_t count_not_positive(const SimplicialMesh& mesh) {
