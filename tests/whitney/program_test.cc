@@ -182,6 +182,30 @@ TEST_F(Program, PrintsTheParametersOfThePaper) {
   EXPECT_EQ(run("parameters --ambient 3 --intrinsic 2 --stats " + path("no/folder/p.json")), 1);
 }
 
+TEST_F(Program, SolidsAroundAndInsideAManifold) {
+  const std::string sphere = R"({"named": {"name": "sphere"}, "triangulation": {"edge_length": 0.5}})";
+  ASSERT_EQ(run("triangulate " + problem(sphere) + " --ambient " + path("a.vtu") + " --inside " + path("in.mesh") +
+                " --stats " + path("s.json")),
+            0)
+      << output_;
+  EXPECT_TRUE(says("quality: thickness worst")) << output_;
+  EXPECT_NE(content(path("s.json")).find("\"thickness_median\""), std::string::npos);
+  EXPECT_EQ(run("check " + path("in.mesh")), 0);  // a ball
+  EXPECT_TRUE(says("1 boundary component") && says("Euler characteristic 1")) << output_;
+  EXPECT_EQ(run("check " + path("a.vtu")), 0);  // a thick sphere
+  EXPECT_TRUE(says("2 boundary components") && says("Euler characteristic 2")) << output_;
+
+  const std::string circle = R"({"named": {"name": "sphere", "intrinsic_dim": 1, "ambient_dim": 4},
+    "triangulation": {"edge_length": 0.2}})";
+  EXPECT_EQ(run("triangulate " + problem(circle) + " --ambient " + path("b.vtu")), 1);
+  EXPECT_TRUE(says(".noff")) << output_;
+  EXPECT_EQ(run("triangulate " + problem(circle) + " --inside " + path("b.noff")), 1);
+  EXPECT_TRUE(says("no inside")) << output_;
+  EXPECT_EQ(files("b."), 0);
+  EXPECT_EQ(run("triangulate " + problem(R"({"named": {"name": "so3_matrices"}})") + " --ambient " + path("b.noff")), 1);
+  EXPECT_TRUE(says("R^9")) << output_;
+}
+
 TEST_F(Program, HelpAndVersion) {
   EXPECT_EQ(run("--help"), 0);
   EXPECT_TRUE(says("trace") && says("check") && says("parameters"));

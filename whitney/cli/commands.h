@@ -32,7 +32,7 @@ struct TriangulateArguments {
   std::string problem;
   std::vector<std::string> outputs;
   std::string stats;
-  std::string ambient;
+  std::string ambient, inside;
   std::optional<double> edge_length;
   bool auto_refine = false;
   std::string scheme = "repair";

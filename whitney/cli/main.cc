@@ -75,6 +75,9 @@ int main(int argc, char** argv) {
   triangulate_command->add_option("--ambient", triangulate.ambient,
                                   "write the subdivided ambient simplices around the manifold, d <= 4 (.vtu, .mesh, "
                                   ".noff); the complex is part of it");
+  triangulate_command->add_option("--inside", triangulate.inside,
+                                  "write the inside of a closed hypersurface as simplices of dimension d <= 4 (.vtu, "
+                                  ".mesh, .noff); the complex is its boundary");
   triangulate_command
       ->add_option("--edge-length", triangulate.edge_length,
                    "longest edge of the ambient simplices, a length; overrides the problem file (default there: "

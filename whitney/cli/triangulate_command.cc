@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <coxeter/error.h>
 #include <unistd.h>
+#include <whitney/ambient_mesh.h>
 #include <whitney/cli/commands.h>
 #include <whitney/cli/report.h>
 #include <whitney/cli/session.h>
+#include <whitney/complex_quality.h>
 #include <whitney/estimate_bending.h>
 #include <whitney/find_seeds.h>
+#include <whitney/inside_mesh.h>
 #include <whitney/io/atomic_file.h>
 #include <whitney/io/problem.h>
 #include <whitney/io/statistics.h>
@@ -16,8 +19,10 @@
 #include <whitney/topology.h>
 
 #include <cstdio>
+#include <numbers>
 #include <iostream>
 #include <sstream>
+#include <utility>
 
 namespace whitney::cli {
 namespace {
@@ -83,6 +88,48 @@ std::string describe_verdict(const TriangulateResult& result, const Bending& ben
   return text.str();
 }
 
+std::string describe_quality(const ComplexQuality& quality) {
+  const double degrees = 180 / std::numbers::pi;
+  std::ostringstream text;
+  text.precision(3);
+  text << "quality: thickness worst " << quality.thickness_min << ", median " << quality.thickness_median
+       << "; angle with the tangent spaces worst " << quality.angle_max * degrees << ", median "
+       << quality.angle_median * degrees << " degrees; edges " << quality.shortest_edge << " to " << quality.longest_edge
+       << "\n";
+  return text.str();
+}
+
+/// Refuses --ambient and --inside before the work begins.
+void check_solid_outputs(const TriangulateArguments& arguments, int d, int n) {
+  for (const auto& [file, option] : {std::pair{arguments.ambient, "--ambient"}, {arguments.inside, "--inside"}}) {
+    if (file.empty()) continue;
+    if (d < 2 || d > 4)
+      throw InvalidInput(std::string(option) + ": made for 2 <= d <= 4, the manifold lies in R^" + std::to_string(d));
+    check_outputs({file}, "", d, false);
+  }
+  if (!arguments.inside.empty() && n != d - 1)
+    throw InvalidInput("--inside: a manifold of dimension " + std::to_string(n) + " in R^" + std::to_string(d) +
+                       " has no inside");
+}
+
+/// Writes them; returns what went wrong, a line each.
+std::string write_solids(const TriangulateArguments& arguments, const TriangulateResult& result,
+                         const coxeter::Triangulation& triangulation, const MeshWriteOptions& options) {
+  std::string failed;
+  const auto write = [&](const std::string& file, auto make) {
+    if (file.empty()) return;
+    try {
+      write_mesh(file, make(result.complex, triangulation, result.displacements).mesh, options);
+    } catch (const std::exception& error) {
+      const std::string what = error.what();
+      failed += (failed.empty() ? "" : "\n") + (what.starts_with(file) ? what : file + ": " + what);
+    }
+  };
+  write(arguments.ambient, ambient_mesh);
+  write(arguments.inside, inside_mesh);
+  return failed;
+}
+
 }  // namespace
 
 int run_triangulate(const TriangulateArguments& arguments) {
@@ -93,6 +140,7 @@ int run_triangulate(const TriangulateArguments& arguments) {
   if (n < 1) throw InvalidInput(arguments.problem + ": no manifold of dimension 1 or more");
   const bool polygons = arguments.mesh == "cells";
   check_outputs(arguments.outputs, arguments.stats, n, polygons);
+  check_solid_outputs(arguments, d, n);
   const bool talk = !arguments.quiet, live = talk && isatty(STDERR_FILENO);
 
   std::vector<double> seeds = seeds_of(problem, arguments.problem);
@@ -147,12 +195,20 @@ int run_triangulate(const TriangulateArguments& arguments) {
     for (int j = 0; j <= n; ++j) statistics.topology.f_vector.push_back(result.complex.num_cells(j));
   }
   statistics.seconds["topology"] = watch.lap();
+  constexpr std::size_t kMaxFeet = 100'000;  // of each kind: enough to judge, and a slow oracle has an end
+  statistics.quality = complex_quality(mesh, manifold, kMaxFeet);
+  statistics.seconds["quality"] = watch.lap();
 
   MeshWriteOptions write_options;
   write_options.projection = arguments.projection;
   write_options.variables = problem.variables;
   write_options.color_by = arguments.color_by;
-  const std::string failed = write_outputs(arguments.outputs, mesh, polygons ? &cells : nullptr, write_options);
+  std::string failed = write_outputs(arguments.outputs, mesh, polygons ? &cells : nullptr, write_options);
+  write_options.color_by.clear();
+  const std::string solids = write_solids(
+      arguments, result, make_triangulation(problem.triangulation, d, search.attempts.back().edge_length), write_options);
+  if (!failed.empty() && !solids.empty()) failed += "\n";
+  failed += solids;
   statistics.seconds["write"] = watch.lap();
 
   statistics.ambient_dim = d;
@@ -174,9 +230,12 @@ int run_triangulate(const TriangulateArguments& arguments) {
                 << search.attempts[i].not_certified << " of " << search.attempts[i].simplices << " simplices), refined\n";
     std::cout << "R^" << d << ", edge length " << result.edge_length << ", "
               << result.seconds_perturb + result.seconds_certify + result.seconds_complex << " s\n"
-              << describe_verdict(result, *bending) << describe(statistics.topology, n);
+              << describe_verdict(result, *bending) << describe(statistics.topology, n)
+              << describe_quality(*statistics.quality);
     if (result.stopped) std::cout << "stopped early (" << result.stop_reason << ")\n";
     for (const std::string& file : arguments.outputs) std::cout << "written: " << file << "\n";
+    for (const std::string& file : {arguments.ambient, arguments.inside})
+      if (!file.empty() && solids.find(file) == std::string::npos) std::cout << "written: " << file << "\n";
     if (!arguments.stats.empty()) std::cout << "written: " << arguments.stats << "\n";
   }
   if (!failed.empty()) throw FileError(failed);

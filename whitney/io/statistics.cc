@@ -29,6 +29,21 @@ Json certificate_json(const CertificateStatistics& c) {
   return out;
 }
 
+Json quality_json(const ComplexQuality& q) {
+  Json out;
+  out["thickness_min"] = q.thickness_min;
+  out["thickness_median"] = q.thickness_median;
+  out["shortest_edge"] = q.shortest_edge;
+  out["longest_edge"] = q.longest_edge;
+  out["angle_max"] = q.angle_max;
+  out["angle_median"] = q.angle_median;
+  out["vertex_distance_max"] = q.vertex_distance_max;
+  out["vertex_distance_median"] = q.vertex_distance_median;
+  out["feet"] = q.feet;
+  out["feet_missing"] = q.feet_missing;
+  return out;
+}
+
 }  // namespace
 
 std::string to_json(const Statistics& s) {
@@ -60,6 +75,7 @@ std::string to_json(const Statistics& s) {
     out["homology_z"] = nullptr;
   }
   out["certificate"] = s.certificate ? certificate_json(*s.certificate) : Json(nullptr);
+  out["quality"] = s.quality ? quality_json(*s.quality) : Json(nullptr);
   out["oracle_evaluations"] = s.oracle_evaluations;
   out["seed_evaluations"] = s.seed_evaluations;
   out["distinct_vertices"] = s.distinct_vertices;

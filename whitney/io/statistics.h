@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <whitney/complex_quality.h>
 #include <whitney/topology.h>
 
 #include <cstddef>
@@ -40,6 +41,7 @@ struct Statistics {
   std::map<std::string, double> seconds;         ///< by phase
   std::string stop_reason = "none";
   std::optional<CertificateStatistics> certificate{};
+  std::optional<ComplexQuality> quality{};  ///< of the mesh that is written; angles in radians
 };
 
 /// JSON text, one key a line, ending in a newline. Adds peak_rss_bytes of this process.
