@@ -61,7 +61,7 @@ class Searcher {
     while (!stack.empty()) {
       const Piece piece = std::move(stack.back());
       stack.pop_back();
-      if (++pieces > options_.max_pieces) {
+      if (++pieces > options_.max_pieces || ++all_pieces_ > options_.max_all_pieces) {
         face.empty = false;
         return face;
       }
@@ -146,6 +146,7 @@ class Searcher {
   NearSimplices& near_;
   const ViolationOptions& options_;
   int d_, k_;
+  std::size_t all_pieces_ = 0;
   Certificate certificate_;
   CertificateProver prover_;
   std::vector<double> point_, frame_;

@@ -30,6 +30,7 @@ std::string describe(const Violation& violation);
 struct ViolationOptions {
   std::size_t max_simplices = 30;  ///< how many simplices are examined
   std::size_t max_pieces = 400;    ///< pieces per face, and oracle calls
+  std::size_t max_all_pieces = 20'000;  ///< of all faces together
 };
 
 /// Looks for a violation among the given simplices, in their order.

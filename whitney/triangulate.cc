@@ -2,6 +2,7 @@
 #include <coxeter/error.h>
 #include <coxeter/quality.h>
 #include <whitney/near_complex.h>
+#include <whitney/place_on_manifold.h>
 #include <whitney/reach_claim.h>
 #include <whitney/triangulate.h>
 
@@ -209,7 +210,14 @@ TriangulateResult triangulate(const Submanifold& manifold, const Bending& bendin
   if (!trace.simplices.empty()) {
     NearComplex cut = near_complex(near, trace, whole);
     result.complex = std::move(cut.complex);
-    if (result.certificate.not_certified == 0) result.hausdorff_bound = cut.distance_bound;
+    if (whole && options.place_on_manifold) {
+      PlacedComplex placed =
+          place_on_manifold(std::move(result.complex), triangulation, displacements, manifold, bending);
+      result.complex = std::move(placed.complex);
+      result.hausdorff_bound = placed.distance_bound;
+    } else if (whole) {
+      result.hausdorff_bound = cut.distance_bound;
+    }
   }
   std::vector<char> is_near(near.num_vertices(), 0);
   for (const std::uint32_t s : trace.simplices)

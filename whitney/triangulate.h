@@ -35,6 +35,9 @@ struct TriangulateOptions {
   double displacement_fraction = 0.999;
   std::uint64_t rng_seed = 1;
   int max_rounds = 16;
+  /// Moves the 0-cells onto M when the result is certified (see place_on_manifold.h): without, K may have steep simplices
+  /// where two of them are close together.
+  bool place_on_manifold = true;
   bool check_reach = true;  ///< compare the claimed reach with all feet seen
   std::size_t max_simplices = 20'000'000;  ///< of dimension d; about 1 KB each
   double time_limit = std::numeric_limits<double>::infinity();  ///< seconds, for the search of displacements
@@ -52,7 +55,7 @@ struct ReachCheck {
 /// Whitney's complex of a submanifold and what is proved of it.
 struct TriangulateResult {
   /// The cells M ∩ mu, replaced by polytopes: a j-cell for every (k+j)-simplex of T~ that M meets, its 0-cells points
-  /// inside the hit k-simplices. K is barycentric_subdivision(complex). Empty when nothing was found.
+  /// inside the hit k-simplices, on M if they were placed there. K is barycentric_subdivision(complex). Empty when nothing was found.
   CellComplex complex;
   /// A claimed reach that the feet contradict makes the verdict "not certified".
   perturbation::CertificateReport certificate;
