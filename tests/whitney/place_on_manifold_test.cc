@@ -22,12 +22,19 @@ struct Shape {
   std::map<std::string, double> parameters;
 };
 
+/// Whitney's complex before its 0-cells are placed.
+WhitneyCase not_placed(const std::string& name, double edge_length, const std::map<std::string, double>& parameters = {}) {
+  TriangulateOptions options;
+  options.place_on_manifold = false;
+  return whitney_case(name, edge_length, parameters, options);
+}
+
 TEST(PlaceOnManifold, PointsAreOnMAndInTheirSimplices) {
   for (const Shape& shape :
        {Shape{"sphere", 0.4, {{"intrinsic_dim", 1}}}, Shape{"sphere", 0.5, {}}, Shape{"torus_of_revolution", 0.4, {}},
         Shape{"flat_torus", 0.3, {}}, Shape{"klein_bottle", 0.45, {}}}) {
     SCOPED_TRACE(shape.name);
-    const WhitneyCase c = whitney_case(shape.name, shape.edge_length, shape.parameters);
+    const WhitneyCase c = not_placed(shape.name, shape.edge_length, shape.parameters);
     const Bending bending = *c.manifold.bending();
     const PlacedComplex placed =
         place_on_manifold(c.result.complex, c.triangulation, c.result.displacements, c.manifold, bending);
@@ -60,7 +67,7 @@ TEST(PlaceOnManifold, PointsAreOnMAndInTheirSimplices) {
 
 TEST(PlaceOnManifold, UnfoldsTheProjection) {
   // Certified, and yet the closest-point projection of the complex as traced folds at a few steep facets.
-  const WhitneyCase c = whitney_case("sphere", 0.1);
+  const WhitneyCase c = not_placed("sphere", 0.1);
   ASSERT_EQ(c.result.certificate.verdict, perturbation::Verdict::kCertified);
   const Bending bending = *c.manifold.bending();
   const PlacedComplex placed =

@@ -23,12 +23,13 @@ struct WhitneyCase {
 };
 
 inline WhitneyCase whitney_case(const std::string& name, double edge_length,
-                                const std::map<std::string, double>& parameters = {}) {
+                                const std::map<std::string, double>& parameters = {},
+                                const TriangulateOptions& options = {}) {
   Submanifold manifold = named_submanifold(name, parameters);
   TriangulationSpec spec;
   spec.rotation = TriangulationSpec::Rotation::kRandom;
   coxeter::Triangulation triangulation = make_triangulation(spec, manifold.ambient_dim(), edge_length);
-  TriangulateResult result = triangulate(manifold, *manifold.bending(), triangulation, manifold.seed_points());
+  TriangulateResult result = triangulate(manifold, *manifold.bending(), triangulation, manifold.seed_points(), options);
   return {std::move(manifold), std::move(triangulation), std::move(result)};
 }
 
