@@ -42,9 +42,9 @@ void run(const Case& one) {
   const Topology topology = topology_of(K);
   const double all = since(begin);
   const auto simplices = static_cast<double>(result.certificate.simplices);
-  std::printf("| %-28s | %d, %d | %5.2f | %-13s | %7.0f | %6zu | %5.3f | %6.1f | %5.1f | %6.2f | %+lld |\n", one.name.c_str(), d,
-              n, one.ratio, to_string(result.certificate.verdict), simplices, result.vertices_moved,
-              result.certificate.margin_min, 1e6 * built / simplices,
+  std::printf("| %-28s | %d, %d | %5.2f | %-13s | %7.0f | %6zu | %5.3f | %6.1f | %5.1f | %6.2f | %+lld |\n",
+              one.name.c_str(), d, n, one.ratio, to_string(result.certificate.verdict), simplices,
+              result.vertices_moved, result.certificate.margin_min, 1e6 * built / simplices,
               static_cast<double>(result.oracle_evaluations) / simplices, all,
               static_cast<long long>(topology.euler_characteristic));
   std::fflush(stdout);
@@ -55,7 +55,8 @@ void run(const Case& one) {
 int main(int argc, char** argv) {
   const bool everything = argc > 1 && std::strcmp(argv[1], "--all") == 0;
   std::printf(
-      "| manifold | d, n | L / reach | verdict | d-simplices | moved | worst margin | us per simplex | oracle calls per "
+      "| manifold | d, n | L / reach | verdict | d-simplices | moved | worst margin | us per simplex | oracle calls "
+      "per "
       "simplex | s, all | chi |\n|---|---|--:|---|--:|--:|--:|--:|--:|--:|--:|\n");
   const std::vector<double> circles = {1.0, 0.4, 0.25, 0.15, 0.1, 0.06, 0.04};
   for (int d = 2; d <= (everything ? 8 : 6); ++d)

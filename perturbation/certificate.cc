@@ -82,8 +82,7 @@ Certificate::Certificate(int ambient_dim, int intrinsic_dim, double reach, doubl
   corner_.resize(k);
 }
 
-Margins Certificate::evaluate(const double* const* vertices, const FootView& foot, double enough,
-                              double useless) {
+Margins Certificate::evaluate(const double* const* vertices, const FootView& foot, double enough, double useless) {
   foot_ = foot;
   Margins margins;
   double radius = 0;

@@ -26,8 +26,8 @@ namespace whitney::perturbation {
 
 /// What one foot says about one d-simplex. Floating point: a guide, not a proof (see certificate_proof.h).
 struct Margins {
-  /// (A+): the least distance of 0 from hull{P_i / h_i : v_i in phi} over the (k-1)-faces phi; a lower bound of it where
-  /// it is above what was enough for the caller.
+  /// (A+): the least distance of 0 from hull{P_i / h_i : v_i in phi} over the (k-1)-faces phi; a lower bound of it
+  /// where it is above what was enough for the caller.
   double separation = 0;
   /// (B): the least of s_min(N^T U) R_c / r over the hit k-faces sigma, U an orthonormal basis of the directions of
   /// sigma; infinite when none is hit.
@@ -52,7 +52,8 @@ struct FootView {
 };
 
 /// Evaluates the conditions of the certificate on one simplex after the other: a d-simplex tau, or a face of it of
-/// dimension at least k, for which the same argument says how M meets it. Keeps scratch memory; one object per thread. The conditions and the theorem: perturbation/README.md.
+/// dimension at least k, for which the same argument says how M meets it. Keeps scratch memory; one object per thread.
+/// The conditions and the theorem: perturbation/README.md.
 class Certificate {
  public:
   /// simplex_dim: the dimension m of the simplices, k <= m <= d; d when negative. Throws InvalidInput unless
@@ -65,7 +66,7 @@ class Certificate {
   int simplex_dim() const { return m_; }
   double reach() const { return reach_; }
   double curvature_radius() const { return curvature_radius_; }
-  const VertexSubsets& low_faces() const { return low_faces_; }  ///< the (k-1)-faces
+  const VertexSubsets& low_faces() const { return low_faces_; }   ///< the (k-1)-faces
   const VertexSubsets& hit_candidates() const { return faces_; }  ///< the k-faces
 
   /// The margins of the simplex with the given vertices (m + 1 pointers to d numbers) at one foot.
@@ -83,7 +84,8 @@ class Certificate {
     const double* direction;  ///< d: a unit vector of the normal space
   };
   /// Calls visit(const Push&) for every (k-1)-face whose separation is below target, for the arguments of the last
-  /// call of evaluate, whose `enough` was at least target. When the face touches the plane, `fallback` (k numbers) gives the direction.
+  /// call of evaluate, whose `enough` was at least target. When the face touches the plane, `fallback` (k numbers)
+  /// gives the direction.
   template <class Visitor>
   void for_each_push(double target, std::span<const double> fallback, Visitor visit) {
     for (std::size_t f = 0; f < low_faces_.num(); ++f)
@@ -91,9 +93,9 @@ class Certificate {
   }
 
   /// Of the last call of evaluate, for whoever verifies it.
-  const double* normal_part(int i) const { return &P_[i * k_]; }         ///< P_i
-  const double* tangent_part(int i) const { return &Q_[i * n_]; }        ///< Q_i
-  bool face_is_hit(std::size_t f) const { return hit_[f]; }              ///< k-face f
+  const double* normal_part(int i) const { return &P_[i * k_]; }                         ///< P_i
+  const double* tangent_part(int i) const { return &Q_[i * n_]; }                        ///< Q_i
+  bool face_is_hit(std::size_t f) const { return hit_[f]; }                              ///< k-face f
   const double* hit_coordinates(std::size_t f) const { return &lambda_[f * (k_ + 1)]; }  ///< if hit: k + 1 numbers
   /// For (k-1)-face f: a direction e (k) with e . P_i > abs(e) h_i for its vertices, if its separation is above 1.
   const double* separating_direction(std::size_t f) const { return &nearest_[f * k_]; }
@@ -109,12 +111,12 @@ class Certificate {
   VertexSubsets low_faces_, faces_;
   MinNormPoint min_norm_;
   FootView foot_{};
-  std::vector<double> P_, Q_, weight_, scaled_;          // (m+1) x k, (m+1) x n, m+1, (m+1) x k
+  std::vector<double> P_, Q_, weight_, scaled_;  // (m+1) x k, (m+1) x n, m+1, (m+1) x k
   std::size_t worst_ = 0;  // the (k-1)-face of the least separation seen last: where the next foot is likely to fail
   std::vector<double> separation_, nearest_, low_lambda_;  // per (k-1)-face: 1, k, k
-  std::vector<char> hit_;                                // per k-face
-  std::vector<double> lambda_;                           // per k-face: k+1
-  std::vector<double> matrix_, slope_, gram_, power_;    // scratch of find_hits
+  std::vector<char> hit_;                                  // per k-face
+  std::vector<double> lambda_;                             // per k-face: k+1
+  std::vector<double> matrix_, slope_, gram_, power_;      // scratch of find_hits
   std::vector<double> steps_, direction_;
   std::vector<const double*> corner_;
 };

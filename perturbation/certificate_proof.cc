@@ -88,8 +88,7 @@ CertificateProver::CertificateProver(Certificate& certificate) : certificate_(ce
   const VertexSubsets& low = certificate.low_faces();
   const VertexSubsets& high = certificate.hit_candidates();
   std::map<std::vector<std::uint8_t>, std::uint32_t> number;
-  for (std::size_t f = 0; f < low.num(); ++f)
-    number[{low[f], low[f] + low.size}] = static_cast<std::uint32_t>(f);
+  for (std::size_t f = 0; f < low.num(); ++f) number[{low[f], low[f] + low.size}] = static_cast<std::uint32_t>(f);
   for (std::size_t f = 0; f < high.num(); ++f)
     for (int omitted = 0; omitted < high.size; ++omitted) {
       std::vector<std::uint8_t> sub(high[f], high[f] + high.size);
@@ -121,8 +120,7 @@ Proof CertificateProver::prove(const double* const* vertices, const FootView& fo
     if (!certificate_.face_is_hit(f)) continue;
     for (int b = 0; b < k; ++b)
       for (int j = 0; j < k; ++j)
-        matrix[b * k + j] =
-            certificate_.normal_part(high[f][j + 1])[b] - certificate_.normal_part(high[f][0])[b];
+        matrix[b * k + j] = certificate_.normal_part(high[f][j + 1])[b] - certificate_.normal_part(high[f][0])[b];
     inverses[f].resize(matrix.size());
     const bool regular = invert(matrix.data(), inverses[f].data(), k);
     if (!regular || !std::all_of(inverses[f].begin(), inverses[f].end(), [](double x) { return std::abs(x) < 1e150; }))
@@ -230,7 +228,8 @@ Proof CertificateProver::prove(const double* const* vertices, const FootView& fo
     const double* C = inverses[f].data();
     for (int b = 0; b < k; ++b)
       for (int j = 0; j < k; ++j)
-        normal_edges[b * k + j] = P[face[j + 1] * k + b] + ball(eta[face[j + 1]]) - P[face[0] * k + b] - ball(eta[face[0]]);
+        normal_edges[b * k + j] =
+            P[face[j + 1] * k + b] + ball(eta[face[j + 1]]) - P[face[0] * k + b] - ball(eta[face[0]]);
     // C M = I - residual with norm_inf(residual) <= left; M C likewise with norm_F <= right.
     double left = 0;
     Interval right(0);
@@ -254,8 +253,7 @@ Proof CertificateProver::prove(const double* const* vertices, const FootView& fo
     std::vector<Interval> coordinates(k);
     for (int j = 0; j < k; ++j) {
       Interval sum(0);
-      for (int b = 0; b < k; ++b)
-        sum -= Interval(C[j * k + b]) * (P[face[0] * k + b] + ball(eta[face[0]]));
+      for (int b = 0; b < k; ++b) sum -= Interval(C[j * k + b]) * (P[face[0] * k + b] + ball(eta[face[0]]));
       coordinates[j] = sum;
       largest = std::max(largest, above(sum));
     }

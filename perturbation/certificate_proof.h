@@ -12,12 +12,12 @@ namespace whitney::perturbation {
 /// What interval arithmetic proves of one simplex at one foot. The notation is that of certificate.h.
 struct Proof {
   enum class Outcome {
-    kProven,            ///< (A+), (B), (C) hold with all errors counted: which faces are hit is proved too
-    kFrame,             ///< the frame of the foot is not orthonormal enough to say anything
-    kSingleSheet,       ///< (C) is not proved: the simplex is too large for the reach, or too far away
-    kSeparation,        ///< (A+) is not proved for some (k-1)-face
-    kTransversality,    ///< (B) is not proved for some hit k-face
-    kUndecided          ///< a k-face is neither proved to be hit nor proved not to be
+    kProven,          ///< (A+), (B), (C) hold with all errors counted: which faces are hit is proved too
+    kFrame,           ///< the frame of the foot is not orthonormal enough to say anything
+    kSingleSheet,     ///< (C) is not proved: the simplex is too large for the reach, or too far away
+    kSeparation,      ///< (A+) is not proved for some (k-1)-face
+    kTransversality,  ///< (B) is not proved for some hit k-face
+    kUndecided        ///< a k-face is neither proved to be hit nor proved not to be
   };
   Outcome outcome = Outcome::kSingleSheet;
   /// The vertices (positions in the simplex) of the face that failed; empty for kFrame and kSingleSheet.

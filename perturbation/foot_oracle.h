@@ -11,8 +11,8 @@ struct FootErrors {
   double angle = 0;  ///< e_t: the largest angle between T_p M and the space returned is at most this (radians)
 };
 
-/// What the perturbation and its certificate ask of a compact C^{1,1} submanifold M of R^d without boundary: points of M
-/// near a given point, with their tangent spaces, and two numbers that bound how M bends. It is called concurrently.
+/// What the perturbation and its certificate ask of a compact C^{1,1} submanifold M of R^d without boundary: points of
+/// M near a given point, with their tangent spaces, and two numbers that bound how M bends. It is called concurrently.
 class FootOracle {
  public:
   virtual ~FootOracle() = default;

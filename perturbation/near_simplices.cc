@@ -46,9 +46,7 @@ std::uint32_t NearSimplices::enter_vertex(const std::int32_t* z, std::uint64_t f
   return v;
 }
 
-void NearSimplices::set_displacement(std::uint32_t v, std::span<const double> u) {
-  restore(v, u, ++last_version_);
-}
+void NearSimplices::set_displacement(std::uint32_t v, std::span<const double> u) { restore(v, u, ++last_version_); }
 
 void NearSimplices::displace(const DisplacementMap& displacements) {
   for (std::size_t i = 0; i < displacements.size(); ++i) {

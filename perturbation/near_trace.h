@@ -26,7 +26,7 @@ struct NearTraceOptions {
 /// them, and ends the walk there.
 struct NearTrace {
   std::vector<std::uint32_t> simplices;  ///< in canonical order, see canonical_order
-  bool complete = true;  ///< the walk ended by itself
+  bool complete = true;                  ///< the walk ended by itself
 };
 
 /// Walks from the start simplices across hit facets: V of the global theorem, if all it finds is certified.

@@ -18,7 +18,12 @@ constexpr std::size_t kAskEvery = 16;
 class Repairer {
  public:
   Repairer(NearSimplices& near, std::span<const std::uint32_t> starts, const RepairOptions& options)
-      : near_(near), starts_(starts.begin(), starts.end()), options_(options), d_(near.ambient_dim()), step_(d_), fallback_(near.codim()) {
+      : near_(near),
+        starts_(starts.begin(), starts.end()),
+        options_(options),
+        d_(near.ambient_dim()),
+        step_(d_),
+        fallback_(near.codim()) {
     if (!(options.max_displacement > 0)) throw InvalidInput("max_displacement must be positive");
   }
 
@@ -51,8 +56,8 @@ class Repairer {
       }
       record.failing = failing_.size();
       // Where a trace ended at exact zeros, the next one goes on; what it finds is swept before it is polished.
-      const bool grew = last > 0 && static_cast<double>(record.simplices) >
-                                        1.1 * static_cast<double>(result.rounds.back().simplices);
+      const bool grew =
+          last > 0 && static_cast<double>(record.simplices) > 1.1 * static_cast<double>(result.rounds.back().simplices);
       if (grew)
         polish = false;
       else
@@ -61,8 +66,7 @@ class Repairer {
       result.rounds.push_back(record);
       result.complete = trace.complete;
       result.all_accepted = trace.complete && failing_.empty();
-      if (result.all_accepted || !trace.complete || settled > options_.max_rounds || round > kMostRounds)
-        return result;
+      if (result.all_accepted || !trace.complete || settled > options_.max_rounds || round > kMostRounds) return result;
       if (polish && static_cast<double>(failing_.size()) > options_.hopeless * static_cast<double>(record.simplices))
         return result;
       round_ = round;

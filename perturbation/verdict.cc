@@ -89,7 +89,7 @@ CertificateReport certify(NearSimplices& near, const NearTrace& trace, double em
   std::vector<char> in_trace(near.num_simplices(), 0);
   CertificateProver prover(near.certificate());
   std::vector<const double*> corner(d + 1);
-  std::vector<float> margins;
+  std::vector<double> margins;
   std::vector<std::pair<float, std::uint32_t>> failing;
   std::optional<std::pair<float, Witness>> worst;
   const int num_feet = d + 2 + d * (d + 1) / 2;
@@ -116,14 +116,14 @@ CertificateReport certify(NearSimplices& near, const NearTrace& trace, double em
     // A margin above 1 whose proof fails is a matter of rounding or of the oracle's errors: another foot may do.
     for (int candidate = 0; !done && evaluation.margin > 1 && candidate < num_feet; ++candidate)
       done = try_foot(candidate);
-    const auto margin = static_cast<float>(proof.margins.margin());
+    const double margin = proof.margins.margin();
     margins.push_back(margin);
-    report.margin_min = std::min<double>(report.margin_min, margin);
+    report.margin_min = std::min(report.margin_min, margin);
     if (done) {
       state[s] = {proof.hit_facets, true};
     } else {
       object(s, evaluation.margin,
-             proof.proven()                                  ? "a neighbour says it is hit, it says it is not"
+             proof.proven()                                ? "a neighbour says it is hit, it says it is not"
              : evaluation.candidate == Evaluation::kNoFoot ? "the oracle has no foot near it"
                                                            : std::string(to_string(proof.outcome)) + " is not proved",
              proof.face);
@@ -137,7 +137,8 @@ CertificateReport certify(NearSimplices& near, const NearTrace& trace, double em
         const std::uint32_t other = near.neighbour(s, q);
         const int back = q == 0 ? d : q == d ? 0 : q;
         if (other < in_trace.size() && in_trace[other] && (state[other].hit_facets >> back & 1)) continue;
-        object(s, near.evaluate(s, 0).margin, "its neighbour across a facet that is hit is not certified to be hit", {});
+        object(s, near.evaluate(s, 0).margin, "its neighbour across a facet that is hit is not certified to be hit",
+               {});
         break;
       }
     }

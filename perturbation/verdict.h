@@ -37,8 +37,8 @@ struct Witness {
 
 struct CertificateReport {
   Verdict verdict = Verdict::kNotCertified;
-  std::size_t simplices = 0;      ///< d-simplices of the trace
-  std::size_t not_certified = 0;  ///< those for which no foot gives a proof, or whose neighbour lacks one
+  std::size_t simplices = 0;                 ///< d-simplices of the trace
+  std::size_t not_certified = 0;             ///< those for which no foot gives a proof, or whose neighbour lacks one
   double margin_min = 0, margin_median = 0;  ///< floating point
   double displacement_max = 0;  ///< an upper bound of all abs(u(v)), rounding of the positions included (a length)
   double embedding_bound = 0;   ///< w; 2 displacement_max < w is proved when `embedded`

@@ -28,8 +28,8 @@ struct Violation {
 std::string describe(const Violation& violation);
 
 struct ViolationOptions {
-  std::size_t max_simplices = 30;  ///< how many simplices are examined
-  std::size_t max_pieces = 400;    ///< pieces per face, and oracle calls
+  std::size_t max_simplices = 30;       ///< how many simplices are examined
+  std::size_t max_pieces = 400;         ///< pieces per face, and oracle calls
   std::size_t max_all_pieces = 20'000;  ///< of all faces together
 };
 
@@ -37,8 +37,8 @@ struct ViolationOptions {
 ///
 /// Two points: a k-face is bisected at its longest edge again and again; a piece whose own (k-1)-faces satisfy (A+) and
 /// that is hit and satisfies (B) holds exactly one point of M (the sheet of its foot), in its interior. Two pieces are
-/// two points. No point: dist(x, M) is 1-Lipschitz, so a piece about x with radius below dist(x, M) is empty; this rests
-/// on the oracle's feet being closest points, as a FootOracle promises.
+/// two points. No point: dist(x, M) is 1-Lipschitz, so a piece about x with radius below dist(x, M) is empty; this
+/// rests on the oracle's feet being closest points, as a FootOracle promises.
 std::optional<Violation> find_violation(NearSimplices& near, std::span<const std::uint32_t> simplices,
                                         const ViolationOptions& options = {});
 

@@ -67,8 +67,8 @@ struct CrossedSimplices {
   bool whole = true;               ///< all simplices that the manifold crosses are there
 };
 
-/// Builds the cell complex of crossed simplices: every coface of a simplex that is hit is hit, so the (j+1)-cells are the
-/// cofacets of the j-cells.
+/// Builds the cell complex of crossed simplices: every coface of a simplex that is hit is hit, so the (j+1)-cells are
+/// the cofacets of the j-cells.
 ///
 /// When they are not the whole, cells of which a face is missing are left out, then those that are
 /// faces of no n-cell. Throws InvalidInput when there are more than 2^32 - 2 cells or incidences of one dimension.

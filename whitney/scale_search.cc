@@ -26,8 +26,8 @@ ScaleSearchResult search_scale(const Submanifold& manifold, const Bending& bendi
     one.time_limit = options.triangulate.time_limit - used;
     search.result = triangulate(manifold, bending, make_triangulation(edge_length), seed_points, one);
     const perturbation::CertificateReport& report = search.result.certificate;
-    search.attempts.push_back({edge_length, report.verdict, report.simplices, report.not_certified, report.margin_min,
-                               report.reason});
+    search.attempts.push_back(
+        {edge_length, report.verdict, report.simplices, report.not_certified, report.margin_min, report.reason});
     if (report.verdict == perturbation::Verdict::kCertified || search.result.stopped ||
         !search.result.reach_check.consistent)
       break;

@@ -38,9 +38,7 @@ class Oracle : public perturbation::FootOracle {
 
 class Watch {
  public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-  }
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count(); }
 
  private:
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
@@ -226,7 +224,8 @@ TriangulateResult triangulate(const Submanifold& manifold, const Bending& bendin
       if (is_near[v]) continue;
       is_near[v] = 1;
       ++result.vertices_near;
-      result.vertices_moved += std::any_of(near.displacement(v), near.displacement(v) + d, [](double u) { return u != 0; });
+      result.vertices_moved +=
+          std::any_of(near.displacement(v), near.displacement(v) + d, [](double u) { return u != 0; });
     }
   result.seeds_used = starts.size();
   result.seeds_merged = feet.size() / d - starts.size();

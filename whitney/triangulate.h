@@ -35,11 +35,11 @@ struct TriangulateOptions {
   double displacement_fraction = 0.999;
   std::uint64_t rng_seed = 1;
   int max_rounds = 16;
-  /// Moves the 0-cells onto M when the result is certified (see place_on_manifold.h): without, K may have steep simplices
-  /// where two of them are close together.
+  /// Moves the 0-cells onto M when the result is certified (see place_on_manifold.h): without, K may have steep
+  /// simplices where two of them are close together.
   bool place_on_manifold = true;
-  bool check_reach = true;  ///< compare the claimed reach with all feet seen
-  std::size_t max_simplices = 20'000'000;  ///< of dimension d; about 1 KB each
+  bool check_reach = true;                                      ///< compare the claimed reach with all feet seen
+  std::size_t max_simplices = 20'000'000;                       ///< of dimension d; about 1 KB each
   double time_limit = std::numeric_limits<double>::infinity();  ///< seconds, for the search of displacements
   /// Called now and then; returning false stops.
   std::function<bool(const TriangulateProgress&)> progress;
@@ -55,7 +55,8 @@ struct ReachCheck {
 /// Whitney's complex of a submanifold and what is proved of it.
 struct TriangulateResult {
   /// The cells M ∩ mu, replaced by polytopes: a j-cell for every (k+j)-simplex of T~ that M meets, its 0-cells points
-  /// inside the hit k-simplices, on M if they were placed there. K is barycentric_subdivision(complex). Empty when nothing was found.
+  /// inside the hit k-simplices, on M if they were placed there. K is barycentric_subdivision(complex). Empty when
+  /// nothing was found.
   CellComplex complex;
   /// A claimed reach that the feet contradict makes the verdict "not certified".
   perturbation::CertificateReport certificate;
@@ -77,7 +78,8 @@ struct TriangulateResult {
 };
 
 /// Whitney's construction: displaces the vertices of the triangulation until every simplex that M meets is certified,
-/// proves that in interval arithmetic, and cuts out the complex. Source: BKW20; the certificate: perturbation/README.md.
+/// proves that in interval arithmetic, and cuts out the complex. Source: BKW20; the certificate:
+/// perturbation/README.md.
 ///
 /// seed_points: m x d; a trace starts near the foot of each. The result is about the components of M that they lie on.
 /// bending: what is known of M (reach and curvature); the verdict rests on it. The triangulation may be of any type

@@ -67,7 +67,8 @@ TEST_P(OnSpheres, CertifiedSimplicesAreMetAsTheCertificateSays) {
     const Proof proof = prover.prove(vertices.data(), foot.view());
     const double margin = proof.margins.margin();
     if (proof.proven()) {
-      // At a foot of a vertex the margin is lower than the truth: its h_i is not taken below a thousandth of the largest.
+      // At a foot of a vertex the margin is lower than the truth: its h_i is not taken below a thousandth of the
+      // largest.
       if (trial % 2 == 0) {
         EXPECT_GT(margin, 1 - 1e-9);
       }
@@ -195,7 +196,8 @@ TEST(Certificate, PushBringsAFaceToTheTarget) {
     std::vector<Copy> pushes;
     const std::vector<double> fallback{1, 0};
     certificate.for_each_push(0.5, fallback, [&](const Certificate::Push& push) {
-      pushes.push_back({{push.face[0], push.face[1]}, {push.steps[0], push.steps[1]}, {push.direction, push.direction + 4}});
+      pushes.push_back(
+          {{push.face[0], push.face[1]}, {push.steps[0], push.steps[1]}, {push.direction, push.direction + 4}});
     });
     for (const Copy& push : pushes) {
       Eigen::MatrixXd moved = V;

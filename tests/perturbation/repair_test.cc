@@ -39,7 +39,7 @@ struct Trial {
 };
 
 Trial attempt(const FootOracle& oracle, const coxeter::Triangulation& triangulation, std::vector<double> seed,
-        std::uint64_t rng_seed = 1, int max_rounds = 16, std::size_t max_simplices = 1'000'000) {
+              std::uint64_t rng_seed = 1, int max_rounds = 16, std::size_t max_simplices = 1'000'000) {
   NearSimplices near(triangulation, oracle);
   const double width = coxeter::simplex_width(triangulation);
   const std::uint32_t start = find_start(near, seed);

@@ -23,7 +23,8 @@ struct Shape {
 };
 
 /// Whitney's complex before its 0-cells are placed.
-WhitneyCase not_placed(const std::string& name, double edge_length, const std::map<std::string, double>& parameters = {}) {
+WhitneyCase not_placed(const std::string& name, double edge_length,
+                       const std::map<std::string, double>& parameters = {}) {
   TriangulateOptions options;
   options.place_on_manifold = false;
   return whitney_case(name, edge_length, parameters, options);

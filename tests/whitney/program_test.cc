@@ -202,7 +202,8 @@ TEST_F(Program, SolidsAroundAndInsideAManifold) {
   EXPECT_EQ(run("triangulate " + problem(circle) + " --inside " + path("b.noff")), 1);
   EXPECT_TRUE(says("no inside")) << output_;
   EXPECT_EQ(files("b."), 0);
-  EXPECT_EQ(run("triangulate " + problem(R"({"named": {"name": "so3_matrices"}})") + " --ambient " + path("b.noff")), 1);
+  EXPECT_EQ(run("triangulate " + problem(R"({"named": {"name": "so3_matrices"}})") + " --ambient " + path("b.noff")),
+            1);
   EXPECT_TRUE(says("R^9")) << output_;
 }
 
@@ -228,9 +229,9 @@ TEST_F(Program, TriangulatesTheKleinBottle) {
   EXPECT_TRUE(says("closed non-orientable surface, 1 component, Euler characteristic 0")) << output_;
   EXPECT_TRUE(says("H1 = Z + Z/2")) << output_;
   const std::string stats = content(path("s.json"));
-  for (const char* key : {"\"verdict\": \"certified\"", "\"reach_source\": \"estimated\"", "\"margin_min\"",
-                          "\"hausdorff_bound\"", "\"orientable\": false", "\"rounds\"", "\"displacement_max\"",
-                          "\"certify\"", "\"perturb\""})
+  for (const char* key :
+       {"\"verdict\": \"certified\"", "\"reach_source\": \"estimated\"", "\"margin_min\"", "\"hausdorff_bound\"",
+        "\"orientable\": false", "\"rounds\"", "\"displacement_max\"", "\"certify\"", "\"perturb\""})
     EXPECT_NE(stats.find(key), std::string::npos) << key;
   EXPECT_EQ(run("check " + path("k.noff")), 0);
   EXPECT_TRUE(says("closed non-orientable surface")) << output_;
@@ -249,7 +250,8 @@ TEST_F(Program, TriangulatesFromEquationsWithTheCallersReach) {
 
 TEST_F(Program, SaysWhatStandsInTheWayOfTheCertificate) {
   const std::string sphere = R"({"named": {"name": "sphere", "intrinsic_dim": 2, "ambient_dim": 3}})";
-  EXPECT_EQ(run("triangulate " + problem(sphere) + " --edge-length 2 -o " + path("s.off") + " --stats " + path("s.json")), 3)
+  EXPECT_EQ(
+      run("triangulate " + problem(sphere) + " --edge-length 2 -o " + path("s.off") + " --stats " + path("s.json")), 3)
       << output_;
   EXPECT_TRUE(says("--edge-length 1")) << output_;  // what to try next
   EXPECT_NE(content(path("s.json")).find("\"reason\": \""), std::string::npos);

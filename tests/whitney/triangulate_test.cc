@@ -113,7 +113,8 @@ const Case kCases[] = {
     {"projective_plane", [] { return projective_plane(); }, 0.3, 1, false, "Z, Z/2, 0"},
     {"projectors", [] { return projective_plane_projectors(); }, 0.2, 1, false, "Z, Z/2, 0"},
 };
-INSTANTIATE_TEST_SUITE_P(Triangulate, Certified, testing::ValuesIn(kCases), [](const auto& test) { return test.param.name; });
+INSTANTIATE_TEST_SUITE_P(Triangulate, Certified, testing::ValuesIn(kCases),
+                         [](const auto& test) { return test.param.name; });
 
 TEST(Triangulate, MovedAndScaledCopiesHaveTheSameTopology) {
   for (const double unit : {1.0, 1e-9, 1e9})
@@ -231,8 +232,8 @@ TEST(Triangulate, RejectsWrongArguments) {
 TEST(ScaleSearch, FindsACertifiedScaleByItself) {
   for (const Submanifold& M : {closed_form::sphere(1, 2), closed_form::sphere(2, 3), closed_form::sphere(1, 4)}) {
     const int d = M.ambient_dim();
-    const ScaleSearchResult search =
-        search_scale(M, *M.bending(), [&](double L) { return moved_coxeter(d, L); }, M.seed_points());
+    const ScaleSearchResult search = search_scale(
+        M, *M.bending(), [&](double L) { return moved_coxeter(d, L); }, M.seed_points());
     EXPECT_EQ(search.result.certificate.verdict, Verdict::kCertified);
     ASSERT_FALSE(search.attempts.empty());
     EXPECT_LE(search.attempts.size(), 4u);
@@ -245,9 +246,8 @@ TEST(ScaleSearch, EndsWhenTheReachIsContradicted) {
   const Submanifold M = closed_form::sphere(1, 2);
   ScaleSearchOptions options;
   options.first_edge_length = 0.3;
-  const ScaleSearchResult search =
-      search_scale(M, {7, 7, Bending::Source::kCaller}, [](double L) { return moved_coxeter(2, L); }, M.seed_points(),
-                   options);
+  const ScaleSearchResult search = search_scale(
+      M, {7, 7, Bending::Source::kCaller}, [](double L) { return moved_coxeter(2, L); }, M.seed_points(), options);
   EXPECT_EQ(search.attempts.size(), 1u);
   EXPECT_NE(search.result.certificate.verdict, Verdict::kCertified);
 }

@@ -86,8 +86,10 @@ int main(int argc, char** argv) {
   triangulate_command->add_flag("--auto-refine", triangulate.auto_refine,
                                 "halve the edge length until the result is certified (at most 8 attempts)");
   triangulate_command
-      ->add_option("--scheme", triangulate.scheme, "how the vertices of the triangulation are displaced: repair, sequential (BKW20's own; needs smaller "
-                   "edge lengths), none")
+      ->add_option(
+          "--scheme", triangulate.scheme,
+          "how the vertices of the triangulation are displaced: repair, sequential (BKW20's own; needs smaller "
+          "edge lengths), none")
       ->check(CLI::IsMember({"repair", "sequential", "none"}))
       ->capture_default_str();
   triangulate_command->add_option("--max-rounds", triangulate.max_rounds, "rounds of the repair")
@@ -98,8 +100,7 @@ int main(int argc, char** argv) {
                    "what is written: barycentric (K), pulled (no new vertices), or cells (the polygons, n <= 2)")
       ->check(CLI::IsMember({"pulled", "barycentric", "cells"}))
       ->capture_default_str();
-  triangulate_command
-      ->add_option("--max-simplices", triangulate.max_simplices, "stop after so many d-simplices")
+  triangulate_command->add_option("--max-simplices", triangulate.max_simplices, "stop after so many d-simplices")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   triangulate_command

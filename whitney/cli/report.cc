@@ -18,7 +18,8 @@ std::string describe(const Topology& t, int n) {
              plural(t.boundary_components, "boundary component");
       break;
     case ManifoldKind::kSingular:
-      text = "not a manifold (" + std::to_string(t.singular_vertices) + " singular " + (t.singular_vertices == 1 ? "vertex" : "vertices") + ")";
+      text = "not a manifold (" + std::to_string(t.singular_vertices) + " singular " +
+             (t.singular_vertices == 1 ? "vertex" : "vertices") + ")";
       break;
     case ManifoldKind::kNotChecked:
       text = noun + ", links not checked";

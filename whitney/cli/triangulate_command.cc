@@ -19,8 +19,8 @@
 #include <whitney/topology.h>
 
 #include <cstdio>
-#include <numbers>
 #include <iostream>
+#include <numbers>
 #include <sstream>
 #include <utility>
 
@@ -74,17 +74,19 @@ std::string describe_verdict(const TriangulateResult& result, const Bending& ben
     text << "the complex is homeomorphic to the manifold, given its reach " << bending.reach << " ("
          << to_string(bending.source) << ")";
     if (bending.source == Bending::Source::kEstimated) text << ": an estimate, so this is no proof";
-    text << "\n  margins: worst " << report.margin_min << ", median " << report.margin_median << "; Hausdorff distance at most "
-         << result.hausdorff_bound << "\n";
+    text << "\n  margins: worst " << report.margin_min << ", median " << report.margin_median
+         << "; Hausdorff distance at most " << result.hausdorff_bound << "\n";
   } else {
     text << report.reason << "\n";
-    text << "  margins: worst " << report.margin_min << ", median " << report.margin_median << "; above 1 is certified\n";
+    text << "  margins: worst " << report.margin_min << ", median " << report.margin_median
+         << "; above 1 is certified\n";
     if (result.reach_check.consistent)
       text << "  next: --edge-length " << result.edge_length / 2 << ", or --auto-refine\n";
   }
-  text << "  edge length / reach " << result.edge_length / bending.reach << ", " << report.simplices << " simplices of R^"
-       << result.complex.ambient_dim << " meet the manifold, " << result.vertices_moved << " of " << result.vertices_near
-       << " vertices moved, by at most " << report.displacement_max / result.edge_length << " edge lengths\n";
+  text << "  edge length / reach " << result.edge_length / bending.reach << ", " << report.simplices
+       << " simplices of R^" << result.complex.ambient_dim << " meet the manifold, " << result.vertices_moved << " of "
+       << result.vertices_near << " vertices moved, by at most " << report.displacement_max / result.edge_length
+       << " edge lengths\n";
   return text.str();
 }
 
@@ -94,8 +96,8 @@ std::string describe_quality(const ComplexQuality& quality) {
   text.precision(3);
   text << "quality: thickness worst " << quality.thickness_min << ", median " << quality.thickness_median
        << "; angle with the tangent spaces worst " << quality.angle_max * degrees << ", median "
-       << quality.angle_median * degrees << " degrees; edges " << quality.shortest_edge << " to " << quality.longest_edge
-       << "\n";
+       << quality.angle_median * degrees << " degrees; edges " << quality.shortest_edge << " to "
+       << quality.longest_edge << "\n";
   return text.str();
 }
 
@@ -205,15 +207,16 @@ int run_triangulate(const TriangulateArguments& arguments) {
   write_options.color_by = arguments.color_by;
   std::string failed = write_outputs(arguments.outputs, mesh, polygons ? &cells : nullptr, write_options);
   write_options.color_by.clear();
-  const std::string solids = write_solids(
-      arguments, result, make_triangulation(problem.triangulation, d, search.attempts.back().edge_length), write_options);
+  const std::string solids =
+      write_solids(arguments, result, make_triangulation(problem.triangulation, d, search.attempts.back().edge_length),
+                   write_options);
   if (!failed.empty() && !solids.empty()) failed += "\n";
   failed += solids;
   statistics.seconds["write"] = watch.lap();
 
   statistics.ambient_dim = d;
   statistics.intrinsic_dim = n;
-  statistics.edge_length = result.edge_length;
+  statistics.edge_length = search.attempts.back().edge_length;
   statistics.num_seeds_used = result.seeds_used;
   statistics.num_seeds_merged = result.seeds_merged;
   statistics.num_seeds_dropped = result.seeds_dropped;
@@ -226,8 +229,9 @@ int run_triangulate(const TriangulateArguments& arguments) {
 
   if (talk) {
     for (std::size_t i = 0; i + 1 < search.attempts.size(); ++i)
-      std::cout << "edge length " << search.attempts[i].edge_length << ": " << to_string(search.attempts[i].verdict) << " ("
-                << search.attempts[i].not_certified << " of " << search.attempts[i].simplices << " simplices), refined\n";
+      std::cout << "edge length " << search.attempts[i].edge_length << ": " << to_string(search.attempts[i].verdict)
+                << " (" << search.attempts[i].not_certified << " of " << search.attempts[i].simplices
+                << " simplices), refined\n";
     std::cout << "R^" << d << ", edge length " << result.edge_length << ", "
               << result.seconds_perturb + result.seconds_certify + result.seconds_complex << " s\n"
               << describe_verdict(result, *bending) << describe(statistics.topology, n)

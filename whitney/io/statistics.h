@@ -14,13 +14,13 @@ namespace whitney {
 
 /// What `whitney triangulate` proves.
 struct CertificateStatistics {
-  std::string verdict;                         ///< "certified", "violated", "not certified"
-  double margin_min = 0, margin_median = 0;    ///< certified above 1
-  double displacement_max = 0;                 ///< largest displacement / edge length
-  std::size_t rounds = 0;                      ///< of the search of displacements
+  std::string verdict;                       ///< "certified", "violated", "not certified"
+  double margin_min = 0, margin_median = 0;  ///< certified above 1
+  double displacement_max = 0;               ///< largest displacement / edge length
+  std::size_t rounds = 0;                    ///< of the search of displacements
   std::size_t vertices_near = 0, vertices_moved = 0;
-  double reach = 0, curvature_radius = 0;      ///< lengths
-  std::string reach_source;                    ///< "proven", "caller", "estimated"
+  double reach = 0, curvature_radius = 0;  ///< lengths
+  std::string reach_source;                ///< "proven", "caller", "estimated"
   double edge_length_over_reach = 0;
   std::optional<double> hausdorff_bound;       ///< between K and M (a length); null when it is not proved
   std::string reason;                          ///< why it is not certified
