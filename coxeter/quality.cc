@@ -87,7 +87,7 @@ double simplex_width(const Triangulation& triangulation) {
       ++g[i];
     }
   }
-  return (1 - 1e-9) / std::sqrt(largest);
+  return (1 - 1e-6) / std::sqrt(largest);
 }
 
 }  // namespace whitney::coxeter

@@ -40,7 +40,7 @@ Quality freudenthal_quality(int ambient_dim, double edge_length);
 
 class Triangulation;
 
-/// The least width of the d-simplices of any triangulation, rounded down (by a factor 1 - 1e-9, far more than the
+/// The least width of the d-simplices of any triangulation, rounded down (by a factor 1 - 1e-6, far more than the
 /// rounding errors). The sums of gradients that Quality::width speaks of are, over all d-simplices, Lambda^-T g for the
 /// vectors g of zeros, ones and minus ones whose entries sum to -1, 0 or 1. Where all coordinates play the same role (a
 /// Gram matrix Lambda^T Lambda with equal diagonal and equal off-diagonal entries up to 1e-12: the Coxeter and

@@ -92,7 +92,7 @@ CertificateReport certify(NearSimplices& near, const NearTrace& trace, double em
   std::vector<double> margins;
   std::vector<std::pair<float, std::uint32_t>> failing;
   std::optional<std::pair<float, Witness>> worst;
-  const int num_feet = d + 2 + d * (d + 1) / 2;
+  const auto num_feet = static_cast<std::uint16_t>(d + 2 + d * (d + 1) / 2);
   const auto object = [&](std::uint32_t s, float margin, std::string reason, std::vector<int> face) {
     ++report.not_certified;
     failing.emplace_back(margin, s);
@@ -104,18 +104,25 @@ CertificateReport certify(NearSimplices& near, const NearTrace& trace, double em
     in_trace[s] = 1;
     const Evaluation evaluation = near.evaluate(s, 1.0, true);
     Proof proof;
-    const auto try_foot = [&](int candidate) {
+    const auto try_foot = [&](std::uint16_t candidate) {
       FootView foot{};
-      if (candidate == Evaluation::kNoFoot || !near.foot(s, static_cast<std::uint16_t>(candidate), foot)) return false;
+      if (candidate == Evaluation::kNoFoot || !near.foot(s, candidate, foot)) return false;
       for (int q = 0; q <= d; ++q) corner[q] = near.position(near.corners(s)[q]);
       Proof next = prover.prove(corner.data(), foot);
       if (proof.face.empty() || next.proven()) proof = std::move(next);
       return proof.proven() && proof.num_hit > 0;
     };
     bool done = try_foot(evaluation.candidate);
-    // A margin above 1 whose proof fails is a matter of rounding or of the oracle's errors: another foot may do.
-    for (int candidate = 0; !done && evaluation.margin > 1 && candidate < num_feet; ++candidate)
+    // A margin above 1 whose proof fails is a matter of rounding or of the oracle's errors: another foot may do. It is
+    // then the foot of this simplex, for whoever cuts out the complex too: what is hit has been proved for no other.
+    for (std::uint16_t candidate = 0; !done && evaluation.margin > 1 && candidate < num_feet; ++candidate) {
       done = try_foot(candidate);
+      if (!done) continue;
+      Evaluation proven = evaluation;
+      proven.candidate = candidate;
+      proven.hit_facets = proof.hit_facets;
+      near.remember(s, proven);
+    }
     const double margin = proof.margins.margin();
     margins.push_back(margin);
     report.margin_min = std::min(report.margin_min, margin);

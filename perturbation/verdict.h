@@ -50,7 +50,8 @@ struct CertificateReport {
 };
 
 /// The verdict on a trace, with every inequality in interval arithmetic. embedding_bound: w of T (see displacement.h).
-/// What it rests on besides: the bounds that the oracle states (reach, curvature, errors of its feet).
+/// Afterwards near.evaluate names, for every certified simplex, the foot with which it was proved.
+/// What the verdict rests on besides: the bounds that the oracle states (reach, curvature, errors of its feet).
 CertificateReport certify(NearSimplices& near, const NearTrace& trace, double embedding_bound);
 
 }  // namespace whitney::perturbation

@@ -52,6 +52,8 @@ void check(const Submanifold& manifold, const Bending& bending, const coxeter::T
                        ", but the manifold lies in R^" + std::to_string(d));
   if (!(bending.reach > 0) || !std::isfinite(bending.reach) || !std::isfinite(bending.curvature_radius))
     throw InvalidInput("bending: reach must be positive and finite");
+  if (bending.curvature_radius != 0 && !(bending.curvature_radius >= bending.reach))
+    throw InvalidInput("bending: curvature_radius must be at least reach, or 0 for the same");
   if (seed_points.empty() || seed_points.size() % d != 0)
     throw InvalidInput("seed_points: need at least one point with " + std::to_string(d) + " coordinates");
   for (const double x : seed_points)

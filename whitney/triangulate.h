@@ -82,8 +82,8 @@ struct TriangulateResult {
 /// perturbation/README.md.
 ///
 /// seed_points: m x d; a trace starts near the foot of each. The result is about the components of M that they lie on.
-/// bending: what is known of M (reach and curvature); the verdict rests on it. The triangulation may be of any type
-/// with d <= 20.
+/// bending: what is known of M (reach and curvature); the verdict rests on it. triangulation: Coxeter or
+/// Freudenthal, moved and scaled, with d <= 31, or any other affine image with d <= 12.
 /// Throws InvalidInput on sizes that do not fit or values that are not finite, OracleError when the oracle fails.
 TriangulateResult triangulate(const Submanifold& manifold, const Bending& bending,
                               const coxeter::Triangulation& triangulation, std::span<const double> seed_points,
