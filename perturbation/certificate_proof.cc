@@ -291,4 +291,50 @@ Proof CertificateProver::prove(const double* const* vertices, const FootView& fo
   return proof;
 }
 
+bool proved_inside(const double* const* vertices, int ambient_dim, const double* point, double error) {
+  // A lambda = (1, x). With C near A^-1 and l = C (1, x): lambda - l = (C A)^-1 C ((1, x) - A l), and moving x by at
+  // most `error` moves lambda by at most norm_inf((C A)^-1) times the largest row of abs(C) without its first column.
+  const int m = ambient_dim + 1;
+  std::vector<double> A(static_cast<std::size_t>(m) * m), destroyed, C(A.size()), guess(m), x(m, 1.0);
+  std::copy_n(point, ambient_dim, x.begin() + 1);
+  for (int i = 0; i < m; ++i) {
+    A[i] = 1;
+    for (int c = 0; c < ambient_dim; ++c) A[(c + 1) * m + i] = vertices[i][c];
+  }
+  destroyed = A;
+  if (!std::isfinite(error) || !invert(destroyed.data(), C.data(), m)) return false;
+  for (int i = 0; i < m; ++i) {
+    double sum = 0;
+    for (int j = 0; j < m; ++j) {
+      if (!(std::abs(C[i * m + j]) < 1e150)) return false;
+      sum += C[i * m + j] * x[j];
+    }
+    guess[i] = sum;
+  }
+  const Rounding rounding;
+  std::vector<Interval> residual(m);
+  for (int i = 0; i < m; ++i) {
+    residual[i] = Interval(x[i]);
+    for (int j = 0; j < m; ++j) residual[i] -= Interval(A[i * m + j]) * Interval(guess[j]);
+  }
+  double departure = 0, correction = 0, spread = 0;
+  for (int i = 0; i < m; ++i) {
+    Interval row(0), moved(0), weight(0);
+    for (int j = 0; j < m; ++j) {
+      Interval entry(i == j ? 1 : 0);
+      for (int l = 0; l < m; ++l) entry -= Interval(C[i * m + l]) * Interval(A[l * m + j]);
+      row += Interval(above(entry));
+      moved += Interval(C[i * m + j]) * residual[j];
+      if (j > 0) weight += Interval(std::abs(C[i * m + j]));
+    }
+    departure = std::max(departure, above(row));
+    correction = std::max(correction, above(moved));
+    spread = std::max(spread, above(weight));
+  }
+  if (!(departure < 1)) return false;
+  const double slack =
+      above((Interval(correction) + Interval(spread) * Interval(error)) / (Interval(1) - Interval(departure)));
+  return std::all_of(guess.begin(), guess.end(), [&](double lambda) { return lambda > slack; });
+}
+
 }  // namespace whitney::perturbation

@@ -58,4 +58,8 @@ class CertificateProver {
   std::vector<std::uint32_t> subfaces_;
 };
 
+/// Whether interval arithmetic proves that every point within `error` of `point` (d) lies in the interior of the
+/// d-simplex with these vertices (d + 1 pointers to d numbers).
+bool proved_inside(const double* const* vertices, int ambient_dim, const double* point, double error);
+
 }  // namespace whitney::perturbation

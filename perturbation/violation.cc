@@ -2,7 +2,6 @@
 #include <perturbation/certificate_proof.h>
 #include <perturbation/violation.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -76,18 +75,18 @@ class Searcher {
         for (int c = 0; c < d_; ++c) squared += std::pow(piece[j * d_ + c] - centre[c], 2);
         size = std::max(size, std::sqrt(squared));
       }
+      double largest = 0;
+      for (const double x : piece) largest = std::max(largest, std::abs(x));
+      // A piece is as far from the exact one as the rounding of its midpoints took it, at most one unit in the last
+      // place for each of fewer than a hundred bisections. It counts like an error of the foot.
+      errors.point += 100 * d_ * largest * std::numeric_limits<double>::epsilon();
       if (exists) {
         double squared = 0;
         for (int c = 0; c < d_; ++c) squared += std::pow(centre[c] - point_[c], 2);
         // Relative rounding errors of these sums stay far below 1e-12.
         if (std::sqrt(squared) * (1 - 1e-12) - errors.point > size * (1 + 1e-12)) continue;
         std::vector<const double*> corner(k_ + 1);
-        double largest = 0;
         for (int j = 0; j <= k_; ++j) corner[j] = &piece[j * d_];
-        for (const double x : piece) largest = std::max(largest, std::abs(x));
-        // A piece is as far from the exact one as the rounding of its midpoints took it: at most one unit in the last
-        // place for each of fewer than a hundred bisections. It counts like an error of the foot.
-        errors.point += 100 * d_ * largest * std::numeric_limits<double>::epsilon();
         const Proof proof = prover_.prove(corner.data(), {point_.data(), frame_.data(), errors});
         if (proof.proven() && proof.num_hit == 1) {
           face.empty = false;
@@ -122,22 +121,11 @@ class Searcher {
 
   /// A foot of the barycentre or of a vertex that lies inside the simplex by more than its error.
   std::optional<Violation> point_inside(std::uint32_t s) {
-    Eigen::MatrixXd A(d_ + 1, d_ + 1);
-    for (int i = 0; i <= d_; ++i) {
-      const double* x = near_.position(near_.corners(s)[i]);
-      A(0, i) = 1;
-      for (int c = 0; c < d_; ++c) A(c + 1, i) = x[c];
-    }
-    const Eigen::MatrixXd inverse = A.inverse();
+    std::vector<const double*> corner(d_ + 1);
+    for (int q = 0; q <= d_; ++q) corner[q] = near_.position(near_.corners(s)[q]);
     for (std::uint16_t candidate = 0; candidate <= d_ + 1; ++candidate) {
       FootView foot{};
-      if (!near_.foot(s, candidate, foot)) continue;
-      Eigen::VectorXd x(d_ + 1);
-      x[0] = 1;
-      for (int c = 0; c < d_; ++c) x[c + 1] = foot.point[c];
-      const Eigen::VectorXd lambda = inverse * x;
-      const double uncertainty = inverse.rightCols(d_).rowwise().norm().maxCoeff() * foot.errors.point + 1e-9;
-      if (lambda.minCoeff() > uncertainty)
+      if (near_.foot(s, candidate, foot) && proved_inside(corner.data(), d_, foot.point, foot.errors.point))
         return Violation{Violation::Kind::kMissesAllFaces, near_.simplex(s), {}, {foot.point, foot.point + d_}};
     }
     return std::nullopt;

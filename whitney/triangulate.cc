@@ -109,16 +109,18 @@ TriangulateResult triangulate(const Submanifold& manifold, const Bending& bendin
   result.edge_length = triangulation.edge_length();
   const char* phase = "perturb";
   const NearSimplices* working = nullptr;
-  const auto keep_going = [&] {
-    if (result.stopped) return false;
-    if (watch.seconds() > options.time_limit) {
-      result.stopped = true;
-      result.stop_reason = "time_limit";
-    } else if (options.progress && !options.progress({phase, working->num_simplices(), watch.seconds()})) {
-      result.stopped = true;
-      result.stop_reason = "cancelled";
-    }
+  const auto stop = [&](const char* reason) {
+    result.stopped = true;
+    result.stop_reason = reason;
+  };
+  const auto not_cancelled = [&] {
+    if (!result.stopped && options.progress && !options.progress({phase, working->num_simplices(), watch.seconds()}))
+      stop("cancelled");
     return !result.stopped;
+  };
+  const auto keep_going = [&] {
+    if (!result.stopped && watch.seconds() > options.time_limit) stop("time_limit");
+    return not_cancelled();
   };
 
   // Feet of the seeds, then the hit simplices nearest to them.
@@ -188,13 +190,11 @@ TriangulateResult triangulate(const Submanifold& manifold, const Bending& bendin
   NearTraceOptions trace_options;
   trace_options.max_simplices = options.max_simplices;
   // What was found by then is wanted even when the search was stopped, but not at any price.
-  const double deadline = result.stopped ? 1.25 * watch.seconds() + 1 : std::numeric_limits<double>::infinity();
-  trace_options.keep_going = [&] { return watch.seconds() < deadline; };
+  const bool stopped_before = result.stopped;
+  const double deadline = 1.25 * watch.seconds() + 1;
+  trace_options.keep_going = [&] { return stopped_before ? watch.seconds() < deadline : not_cancelled(); };
   const NearTrace trace = perturbation::trace_near(near, starts, trace_options);
-  if (!trace.complete && !result.stopped) {
-    result.stopped = true;
-    result.stop_reason = "max_simplices";
-  }
+  if (!trace.complete && !result.stopped) stop("max_simplices");
   result.certificate = perturbation::certify(near, trace, width);
   if (options.check_reach) result.reach_check = compare_reach(near, trace);
   if (!result.reach_check.consistent && result.certificate.verdict != perturbation::Verdict::kViolated) {

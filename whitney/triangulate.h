@@ -20,7 +20,7 @@
 namespace whitney {
 
 struct TriangulateProgress {
-  const char* phase = "";     ///< "perturb", "certify", "complex"
+  const char* phase = "";     ///< "perturb", then "certify"
   std::size_t simplices = 0;  ///< d-simplices looked at so far
   double seconds = 0;         ///< since the beginning
 };

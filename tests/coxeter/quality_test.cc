@@ -4,6 +4,9 @@
 #include <coxeter/triangulation.h>
 #include <gtest/gtest.h>
 #include <tests/coxeter/brute_force.h>
+#include <algorithm>
+#include <numeric>
+#include <vector>
 
 #include <Eigen/LU>
 #include <cmath>
@@ -126,6 +129,64 @@ TEST(Quality, RejectsBadInput) {
   EXPECT_THROW(coxeter_a_quality(0, 1), InvalidInput);
   EXPECT_THROW(freudenthal_quality(3, 0), InvalidInput);
   EXPECT_THROW(freudenthal_quality(3, std::nan("")), InvalidInput);
+}
+
+TEST(SimplexWidth, IsTheClosedFormForMovedCoxeterAndFreudenthal) {
+  for (int d = 1; d <= 9; ++d) {
+    Eigen::MatrixXd Q = Eigen::MatrixXd::Identity(d, d);
+    for (int c = 0; c + 1 < d; ++c) {
+      Eigen::MatrixXd plane = Eigen::MatrixXd::Identity(d, d);
+      plane(c, c) = plane(c + 1, c + 1) = std::cos(0.4 + c);
+      plane(c, c + 1) = -(plane(c + 1, c) = std::sin(0.4 + c));
+      Q = plane * Q;
+    }
+    for (const double L : {1.0, 1e-9, 3e7}) {
+      const Eigen::VectorXd b = Eigen::VectorXd::Constant(d, 0.3 * L);
+      const double coxeter_width = coxeter_a_quality(d, L).width, freudenthal_width = freudenthal_quality(d, L).width;
+      for (const auto& T : {coxeter_a(d, L), coxeter_a(d, L).transformed(Q, b)}) {
+        EXPECT_LE(simplex_width(T), coxeter_width) << d;
+        EXPECT_GE(simplex_width(T), coxeter_width * (1 - 2e-6)) << d;
+      }
+      for (const auto& T : {freudenthal(d, L), freudenthal(d, L).transformed(Q, b)}) {
+        EXPECT_LE(simplex_width(T), freudenthal_width) << d;
+        EXPECT_GE(simplex_width(T), freudenthal_width * (1 - 2e-6)) << d;
+      }
+    }
+  }
+}
+
+TEST(SimplexWidth, OfAnyAffineImageByAllSimplices) {
+  // 1 / the longest sum of gradients of barycentric coordinates, over all sets of vertices of all d! simplices at 0.
+  for (int d = 2; d <= 4; ++d) {
+    Eigen::MatrixXd A(d, d);
+    for (int i = 0; i < d; ++i)
+      for (int j = 0; j < d; ++j) A(i, j) = (i == j ? 1.3 + i : 0) + 0.37 * std::sin(1 + 3 * i + 7 * j);
+    const Triangulation T(A, Eigen::VectorXd::Zero(d));
+    std::vector<int> order(d);
+    std::iota(order.begin(), order.end(), 0);
+    double longest = 0;
+    do {
+      Eigen::MatrixXd system(d + 1, d + 1);  // columns (1, v_q); rows of the inverse: (constant, grad lambda_q)
+      system.row(0).setOnes();
+      Eigen::VectorXd z = Eigen::VectorXd::Zero(d);
+      for (int q = 0; q <= d; ++q) {
+        system.col(q).tail(d) = A * z;
+        if (q < d) z[order[q]] += 1;
+      }
+      const Eigen::MatrixXd gradients = system.inverse().rightCols(d);
+      for (int set = 1; set < 1 << (d + 1); ++set) {
+        Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(d);
+        for (int q = 0; q <= d; ++q)
+          if (set >> q & 1) sum += gradients.row(q);
+        longest = std::max(longest, sum.norm());
+      }
+    } while (std::next_permutation(order.begin(), order.end()));
+    EXPECT_LE(simplex_width(T), 1 / longest);
+    EXPECT_GE(simplex_width(T), (1 - 2e-6) / longest);
+  }
+  Eigen::MatrixXd skew = Eigen::MatrixXd::Identity(13, 13);
+  skew(0, 1) = 0.5;
+  EXPECT_THROW(simplex_width(Triangulation(skew, Eigen::VectorXd::Zero(13))), InvalidInput);
 }
 
 }  // namespace

@@ -225,13 +225,14 @@ TEST(Verdict, ATraceCutShortIsNotCertified) {
   EXPECT_EQ(part.report.simplices, 50u);
 }
 
-/// Two parallel lines' worth of circle: circles of radius 1 and 1 + gap about the origin, with the reach of one.
+/// Circles of radius 1 and 1 + gap about the origin, with their true reach. (A reach that is too large is the caller's
+/// word; what the feet say of it is checked elsewhere, see reach_claim.h.)
 class TwoSheets : public FootOracle {
  public:
   explicit TwoSheets(double gap) : gap_(gap) {}
   int ambient_dim() const override { return 2; }
   int intrinsic_dim() const override { return 1; }
-  double reach() const override { return 1; }  // a lie
+  double reach() const override { return gap_ / 2; }
   double curvature_radius() const override { return 1; }
   bool foot(std::span<const double> x, std::span<double> point, std::span<double> frame,
             FootErrors& errors) const override {
@@ -250,19 +251,8 @@ class TwoSheets : public FootOracle {
   double gap_;
 };
 
-// A reach that is too large is the caller's word: the certificate rests on it. What the feet say of it is checked
-// elsewhere (reach_claim.h). But with the true reach, gap / 2, two sheets in one simplex are never certified.
-class TwoSheetsHonestly : public TwoSheets {
- public:
-  explicit TwoSheetsHonestly(double gap) : TwoSheets(gap), gap_(gap) {}
-  double reach() const override { return gap_ / 2; }
-
- private:
-  double gap_;
-};
-
 TEST(Verdict, TwoSheetsInASimplexAreNotCertified) {
-  const TwoSheetsHonestly oracle(0.1);
+  const TwoSheets oracle(0.1);
   const Trial result = attempt(oracle, moved_coxeter(2, 0.3), {1, 0});
   EXPECT_NE(result.report.verdict, Verdict::kCertified);
 }
@@ -326,6 +316,59 @@ TEST(Verdict, LengthsInAnyUnitGiveTheSameVerdict) {
     EXPECT_EQ(result.report.verdict, Verdict::kCertified) << unit << ": " << result.report.reason;
     if (expected == 0) expected = result.report.simplices;
     EXPECT_EQ(result.report.simplices, expected);
+  }
+}
+
+TEST(Verdict, InsideIsProvedWithTheErrorsOfThePoint) {
+  const Eigen::Matrix<double, 2, 3> V = (Eigen::Matrix<double, 2, 3>() << 0, 1, 0, 0, 0, 1).finished();
+  const double* const vertices[] = {V.col(0).data(), V.col(1).data(), V.col(2).data()};
+  const auto inside = [&](double x, double y, double error) {
+    const double point[] = {x, y};
+    return proved_inside(vertices, 2, point, error);
+  };
+  EXPECT_TRUE(inside(0.25, 0.25, 0));
+  EXPECT_TRUE(inside(0.25, 0.25, 0.1));
+  EXPECT_FALSE(inside(0.25, 0.25, 0.26));
+  EXPECT_FALSE(inside(0.5, 0.5, 0));  // on an edge
+  EXPECT_FALSE(inside(0, 0, 0));      // a vertex
+  EXPECT_FALSE(inside(1, 1, 0));
+  EXPECT_TRUE(inside(1e-12, 1e-12, 1e-14));
+  EXPECT_FALSE(inside(1e-12, 1e-12, 1e-11));
+  const double* const flat[] = {V.col(0).data(), V.col(1).data(), V.col(1).data()};
+  const double point[] = {0.5, 0};
+  EXPECT_FALSE(proved_inside(flat, 2, point, 0));
+}
+
+/// A circle whose feet at barycentres and midpoints of edges claim errors that make every proof fail; feet near lattice
+/// vertices of the triangulation stay good. The proof must then go through another foot than the one with the best
+/// margin, and name it.
+class GoodAtVerticesOnly : public SphereOracle {
+ public:
+  explicit GoodAtVerticesOnly(const coxeter::Triangulation& triangulation)
+      : SphereOracle(2, 1), triangulation_(triangulation) {}
+  bool foot(std::span<const double> x, std::span<double> point, std::span<double> frame,
+            FootErrors& errors) const override {
+    if (!SphereOracle::foot(x, point, frame, errors)) return false;
+    const Eigen::VectorXd z = triangulation_.lattice_coordinates(x);
+    if ((z - z.array().round().matrix()).cwiseAbs().maxCoeff() > 1e-9) errors.point = 10;
+    return true;
+  }
+
+ private:
+  const coxeter::Triangulation& triangulation_;
+};
+
+TEST(Verdict, NamesTheFootThatWasProved) {
+  const auto triangulation = moved_coxeter(2, 0.05);
+  const GoodAtVerticesOnly oracle(triangulation);
+  NearSimplices near(triangulation, oracle);
+  const std::uint32_t start = find_start(near, on_axis(2));
+  const NearTrace trace = trace_near(near, std::span(&start, 1));
+  const CertificateReport report = certify(near, trace, coxeter::simplex_width(triangulation));
+  ASSERT_EQ(report.verdict, Verdict::kCertified) << report.reason;
+  for (const std::uint32_t s : trace.simplices) {
+    const std::uint16_t candidate = near.evaluate(s, 0).candidate;
+    EXPECT_TRUE(candidate >= 1 && candidate <= 3) << candidate;
   }
 }
 
