@@ -34,7 +34,7 @@ NearTrace trace_near(NearSimplices& near, std::span<const std::uint32_t> starts,
 
 /// The hit simplex nearest to the one that holds x, in steps across facets; at most max_simplices are looked at. When
 /// there is none, the simplex that holds x, which a certificate will then have to speak of.
-std::uint32_t find_start(NearSimplices& near, std::span<const double> x, std::size_t max_simplices = 2000);
+std::uint32_t find_start(NearSimplices& near, std::span<const double> x, std::size_t max_simplices = 500);
 
 /// Sorts simplices by base vertex, then by the part numbers of their coordinates, as coxeter::Simplex does.
 void canonical_order(const NearSimplices& near, std::vector<std::uint32_t>& simplices);

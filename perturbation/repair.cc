@@ -25,10 +25,13 @@ class Repairer {
         step_(d_),
         fallback_(near.codim()) {
     if (!(options.max_displacement > 0)) throw InvalidInput("max_displacement must be positive");
+    std::erase_if(starts_, [&](std::uint32_t s) { return !near.evaluate(s, 1).is_hit(); });
+    near.forget();
   }
 
   RepairResult run() {
     RepairResult result;
+    if (starts_.empty()) return result;
     int settled = 0;  // rounds that did not find the trace much larger than the one before did
     for (int round = 0;; ++round) {
       // A polish that left as many failing as it found has run into places where every move uncovers others that fail
@@ -88,6 +91,7 @@ class Repairer {
 
  private:
   /// A start that moves have taken off the manifold would end the trace at once: the nearest hit simplex replaces it.
+  /// One that was never hit has been searched around already.
   void keep_starts_hit() {
     for (std::uint32_t& s : starts_) {
       if (near_.evaluate(s, 1).is_hit()) continue;

@@ -50,7 +50,7 @@ struct RepairResult {
 /// them of [margin < accept] (1 + accept - margin) falls. Then trace again.
 ///
 /// Deterministic for a given rng_seed. No proof of termination: look at all_accepted. The displacements are left in
-/// `near`. starts: simplices that the manifold meets.
+/// `near`. starts: simplices that the manifold meets; when it meets none of them, nothing is done.
 RepairResult repair(NearSimplices& near, std::span<const std::uint32_t> starts, const RepairOptions& options);
 
 }  // namespace whitney::perturbation

@@ -18,9 +18,16 @@ using perturbation::NearSimplices;
 using perturbation::NearTrace;
 using perturbation::NearTraceOptions;
 
+std::string place(std::span<const double> x) {
+  std::ostringstream text;
+  for (std::size_t c = 0; c < x.size(); ++c) text << (c == 0 ? "(" : ", ") << x[c];
+  return text.str() + ")";
+}
+
 class Oracle : public perturbation::FootOracle {
  public:
-  Oracle(const Submanifold& manifold, const Bending& bending) : manifold_(manifold), bending_(bending) {}
+  Oracle(const Submanifold& manifold, const Bending& bending, const std::optional<Box>& box, double edge_length)
+      : manifold_(manifold), bending_(bending), box_(box), edge_length_(edge_length) {}
 
   int ambient_dim() const override { return manifold_.ambient_dim(); }
   int intrinsic_dim() const override { return manifold_.intrinsic_dim(); }
@@ -28,12 +35,30 @@ class Oracle : public perturbation::FootOracle {
   double curvature_radius() const override { return std::max(bending_.reach, bending_.curvature_radius); }
   bool foot(std::span<const double> x, std::span<double> point, std::span<double> frame,
             FootErrors& errors) const override {
-    return manifold_.project(x, point, frame, errors);
+    if (!manifold_.project(x, point, frame, errors)) return false;
+    if (box_) check_inside(x, point);
+    return true;
   }
 
  private:
+  /// A foot far from x says nothing about the part of M that is being walked along.
+  void check_inside(std::span<const double> x, std::span<const double> point) const {
+    const double rounding = 1e-9 * edge_length_;
+    bool inside = true;
+    double squared = 0;
+    for (std::size_t c = 0; c < x.size(); ++c) {
+      inside = inside && point[c] >= box_->lower[c] - rounding && point[c] <= box_->upper[c] + rounding;
+      squared += (x[c] - point[c]) * (x[c] - point[c]);
+    }
+    if (!inside && squared <= edge_length_ * edge_length_)
+      throw InvalidInput("the manifold leaves the box, at " + place(point) +
+                         ": only a closed manifold inside its box can be triangulated; make the box larger");
+  }
+
   const Submanifold& manifold_;
   const Bending& bending_;
+  const std::optional<Box>& box_;
+  double edge_length_;
 };
 
 class Watch {
@@ -58,6 +83,9 @@ void check(const Submanifold& manifold, const Bending& bending, const coxeter::T
     throw InvalidInput("seed_points: need at least one point with " + std::to_string(d) + " coordinates");
   for (const double x : seed_points)
     if (!std::isfinite(x)) throw InvalidInput("seed_points: coordinates must be finite");
+  if (options.box && (options.box->lower.size() != static_cast<std::size_t>(d) ||
+                      options.box->upper.size() != static_cast<std::size_t>(d)))
+    throw InvalidInput("box: need " + std::to_string(d) + " lower and upper bounds");
   if (!(options.displacement_fraction > 0) || !(options.displacement_fraction < 1))
     throw InvalidInput("displacement_fraction must be between 0 and 1");
 }
@@ -89,12 +117,6 @@ ReachCheck compare_reach(NearSimplices& near, const NearTrace& trace) {
   return check;
 }
 
-std::string place(const std::vector<double>& x) {
-  std::ostringstream text;
-  for (std::size_t c = 0; c < x.size(); ++c) text << (c == 0 ? "(" : ", ") << x[c];
-  return text.str() + ")";
-}
-
 }  // namespace
 
 TriangulateResult triangulate(const Submanifold& manifold, const Bending& bending,
@@ -102,7 +124,7 @@ TriangulateResult triangulate(const Submanifold& manifold, const Bending& bendin
                               const TriangulateOptions& options) {
   check(manifold, bending, triangulation, seed_points, options);
   const int d = manifold.ambient_dim();
-  const Oracle oracle(manifold, bending);
+  const Oracle oracle(manifold, bending, options.box, triangulation.edge_length());
   const double width = coxeter::simplex_width(triangulation);
   const Watch watch;
   TriangulateResult result;

@@ -7,6 +7,7 @@
 #include <perturbation/verdict.h>
 #include <whitney/cell_complex.h>
 #include <whitney/submanifold.h>
+#include <whitney/trace.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -33,6 +34,8 @@ struct TriangulateOptions {
   /// No vertex moves further than this fraction of half the width of the d-simplices; below 1, so that the
   /// triangulation stays embedded.
   double displacement_fraction = 0.999;
+  /// M lies inside this box, or it is an error: an unbounded manifold is found out where it leaves.
+  std::optional<Box> box;
   std::uint64_t rng_seed = 1;
   int max_rounds = 16;
   /// Moves the 0-cells onto M when the result is certified (see place_on_manifold.h): without, K may have steep
@@ -84,7 +87,8 @@ struct TriangulateResult {
 /// seed_points: m x d; a trace starts near the foot of each. The result is about the components of M that they lie on.
 /// bending: what is known of M (reach and curvature); the verdict rests on it. triangulation: Coxeter or
 /// Freudenthal, moved and scaled, with d <= 31, or any other affine image with d <= 12.
-/// Throws InvalidInput on sizes that do not fit or values that are not finite, OracleError when the oracle fails.
+/// Throws InvalidInput on sizes that do not fit, values that are not finite, or a manifold that leaves options.box (the
+/// message names the place), OracleError when the oracle fails.
 TriangulateResult triangulate(const Submanifold& manifold, const Bending& bending,
                               const coxeter::Triangulation& triangulation, std::span<const double> seed_points,
                               const TriangulateOptions& options = {});

@@ -267,6 +267,19 @@ TEST_F(Program, SaysWhatStandsInTheWayOfTheCertificate) {
   EXPECT_TRUE(says("max_simplices")) << output_;
 }
 
+TEST_F(Program, TriangulateRefusesWhatIsNoClosedSubmanifold) {
+  EXPECT_EQ(run("triangulate " + problem(R"json({"variables": ["x","y"], "equations": ["(x^2+y^2)^2 - x^2 + y^2"],
+                                             "box": [[-2,2],[-2,2]]})json")),
+            1);
+  EXPECT_TRUE(says("crosses itself")) << output_;
+  EXPECT_EQ(run("triangulate " + problem(R"json({"variables": ["x","y","z"], "equations": ["z"], "reach": 1,
+                                             "box": [[-1,1],[-1,1],[-1,1]]})json") +
+                " -o " + path("p.off")),
+            1);
+  EXPECT_TRUE(says("problem.json: the manifold leaves the box, at (")) << output_;
+  EXPECT_EQ(files("p.off"), 0);
+}
+
 TEST_F(Program, TriangulateNamesBadInput) {
   EXPECT_EQ(run("triangulate " + problem(R"({"named": {"name": "sphere"}})") + " -o " + path("x.xyz")), 1);
   EXPECT_EQ(run("triangulate " + problem(R"({"named": {"name": "moebius"}})")), 1);

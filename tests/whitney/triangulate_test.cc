@@ -224,7 +224,15 @@ TEST(Triangulate, RejectsWrongArguments) {
   EXPECT_THROW(triangulate(M, bending, triangulation, std::vector<double>{1, 0, std::nan("")}), InvalidInput);
   EXPECT_THROW(triangulate(M, {0, 0, Bending::Source::kCaller}, triangulation, seeds), InvalidInput);
   EXPECT_THROW(triangulate(M, {std::nan(""), 0, Bending::Source::kCaller}, triangulation, seeds), InvalidInput);
+  EXPECT_THROW(triangulate(M, {1, 0.5, Bending::Source::kCaller}, triangulation, seeds), InvalidInput);
   TriangulateOptions options;
+  options.box = Box{{-2, -2}, {2, 2}};
+  EXPECT_THROW(triangulate(M, bending, triangulation, seeds, options), InvalidInput);
+  options.box = Box{{-2, -0.5, -2}, {2, 2, 2}};  // M leaves it
+  EXPECT_THROW(triangulate(M, bending, triangulation, seeds, options), InvalidInput);
+  options.box = Box{{-1, -1, -1}, {1, 1, 1}};  // M touches its faces
+  EXPECT_EQ(triangulate(M, bending, triangulation, seeds, options).certificate.verdict, Verdict::kCertified);
+  options = {};
   options.displacement_fraction = 1;
   EXPECT_THROW(triangulate(M, bending, triangulation, seeds, options), InvalidInput);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <whitney/trace.h>
+#include <whitney/triangulate.h>
 
 #include <cstddef>
 #include <limits>
@@ -38,7 +39,7 @@ struct TriangulateArguments {
   std::string scheme = "repair";
   int max_rounds = 16;
   std::string mesh = "barycentric";
-  std::size_t max_simplices = 20'000'000;
+  std::size_t max_simplices = TriangulateOptions{}.max_simplices;
   double time_limit = std::numeric_limits<double>::infinity();
   std::string projection = "pca";
   std::string color_by;

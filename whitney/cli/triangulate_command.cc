@@ -18,6 +18,7 @@
 #include <whitney/subdivide.h>
 #include <whitney/topology.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <iostream>
 #include <numbers>
@@ -42,6 +43,25 @@ std::vector<double> seeds_of(Problem& problem, const std::string& file) {
   std::vector<double> seeds;
   for (const auto& point : problem.seed_points) seeds.insert(seeds.end(), point.begin(), point.end());
   return seeds;
+}
+
+/// The reach of a zero set that came without one. A zero set that crosses itself or has a corner would send the search
+/// for a scale to ever smaller edge lengths, so it is named here.
+Bending estimated(const Submanifold& manifold, const std::optional<Box>& box, const std::string& file) {
+  const BendingEstimate estimate = estimate_bending(manifold);
+  const auto d = static_cast<std::size_t>(manifold.ambient_dim());
+  double side = 0;
+  for (std::size_t c = 0; box && c < d; ++c) side = std::max(side, box->upper[c] - box->lower[c]);
+  if (estimate.bending.reach > 1e-5 * side) return estimate.bending;
+  std::ostringstream text;
+  text << file << ": the reach seems to be " << estimate.bending.reach << " or less, from the points";
+  for (const std::vector<double>& x : {estimate.p, estimate.q}) {
+    text << " (";
+    for (std::size_t c = 0; c < d; ++c) text << (c == 0 ? "" : ", ") << x[c];
+    text << ")";
+  }
+  text << ": the set crosses itself or is singular there, so it is no submanifold; if it is one, give its reach";
+  throw InvalidInput(text.str());
 }
 
 CertificateStatistics certificate_statistics(const TriangulateResult& result, const Bending& bending) {
@@ -149,7 +169,7 @@ int run_triangulate(const TriangulateArguments& arguments) {
   const Submanifold manifold = submanifold_of(problem);
   if (seeds.empty()) seeds = manifold.seed_points();
   std::optional<Bending> bending = manifold.bending();
-  if (!bending) bending = estimate_bending(manifold).bending;
+  if (!bending) bending = estimated(manifold, box_of(problem), arguments.problem);
   statistics.seconds["seeds"] = watch.lap();
 
   InterruptGuard guard;
@@ -159,6 +179,7 @@ int run_triangulate(const TriangulateArguments& arguments) {
                                                                   : TriangulateOptions::Scheme::kRepair;
   options.triangulate.rng_seed = problem.triangulation.rng_seed;
   options.triangulate.max_rounds = arguments.max_rounds;
+  options.triangulate.box = box_of(problem);
   options.triangulate.max_simplices = arguments.max_simplices;
   options.triangulate.time_limit = arguments.time_limit;
   double reported = 0;
@@ -172,8 +193,13 @@ int run_triangulate(const TriangulateArguments& arguments) {
   options.first_edge_length = arguments.edge_length ? arguments.edge_length : problem.triangulation.edge_length;
   if (options.first_edge_length && arguments.auto_refine) options.factor = 0.5;
   if (options.first_edge_length && !arguments.auto_refine) options.max_attempts = 1;
-  const ScaleSearchResult search = search_scale(
-      manifold, *bending, [&](double L) { return make_triangulation(problem.triangulation, d, L); }, seeds, options);
+  const auto triangulation_of = [&](double L) { return make_triangulation(problem.triangulation, d, L); };
+  ScaleSearchResult search;
+  try {
+    search = search_scale(manifold, *bending, triangulation_of, seeds, options);
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(arguments.problem + ": " + error.what());
+  }
   const TriangulateResult& result = search.result;
   if (live && reported > 0) std::fprintf(stderr, "\n");
   statistics.seconds["perturb"] = result.seconds_perturb;
