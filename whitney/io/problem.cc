@@ -170,20 +170,35 @@ TriangulationSpec read_triangulation(const Entry& entry, std::size_t d) {
   return spec;
 }
 
-Function read_equations(const Entry& variables_entry, const std::vector<std::string>& variables, const Entry& entry) {
-  variables_entry.located([&] { check_variables(variables); });
-  const std::vector<Entry> elements = entry.list();
-  std::vector<std::string> equations;
-  for (const Entry& element : elements) equations.push_back(element.string());
+std::vector<std::string> read_texts(const Entry& entry) {
+  std::vector<std::string> texts;
+  for (const Entry& element : entry.list()) texts.push_back(element.string());
+  return texts;
+}
+
+/// A list of expressions of the variables; `make` makes the function of the texts, and throws InvalidInput.
+template <class Make>
+Function read_map(const std::vector<std::string>& variables, const Entry& entry, Make make) {
+  const std::vector<std::string> texts = read_texts(entry);
   try {
-    return parse_equations(variables, equations);
+    return make(texts);
   } catch (const InvalidInput& error) {
     // Which one was it?
+    const std::vector<Entry> elements = entry.list();
     for (std::size_t i = 0; i < elements.size(); ++i) {
-      elements[i].located([&] { compile(variables, std::span(equations).subspan(i, 1)); });
+      elements[i].located([&] { compile(variables, std::span(texts).subspan(i, 1)); });
     }
     entry.fail(error.what());
   }
+}
+
+Function read_equations(const std::vector<std::string>& variables, const Entry& entry) {
+  return read_map(variables, entry, [&](const auto& texts) { return parse_equations(variables, texts); });
+}
+
+/// Any number of expressions, each >= 0.
+Function read_inequalities(const std::vector<std::string>& variables, const Entry& entry) {
+  return read_map(variables, entry, [&](const auto& texts) { return make_function(compile(variables, texts)); });
 }
 
 bool contains(const std::vector<std::string>& names, const std::string& name) {
@@ -250,7 +265,7 @@ Problem parse_problem(std::string_view text, const std::string& name) {
   const Entry root(json, name, "");
   root.expect_keys({"variables", "equations", "inequalities", "box", "seed_points", "reach", "triangulation", "named",
                     "parametrization", "points", "charts", "projective"});
-  for (const char* key : {"inequalities", "points", "charts", "projective"}) {
+  for (const char* key : {"points", "charts", "projective"}) {
     if (root.has(key)) root.at(key).fail("this version does not support it yet");
   }
   if (root.has("equations") + root.has("named") + root.has("parametrization") != 1) {
@@ -265,7 +280,7 @@ Problem parse_problem(std::string_view text, const std::string& name) {
     entry.located([&] { check_variables(problem.variables); });
   }
   if (root.has("equations")) {
-    problem.function = read_equations(root.at("variables"), problem.variables, root.at("equations"));
+    problem.function = read_equations(problem.variables, root.at("equations"));
   } else if (root.has("named")) {
     problem.source = Problem::Source::kNamed;
     read_named(root.at("named"), problem);
@@ -280,6 +295,11 @@ Problem parse_problem(std::string_view text, const std::string& name) {
     root.at("variables").fail("the map has " + std::to_string(d) + " coordinates");
   }
 
+  if (root.has("inequalities")) {
+    const Entry entry = root.at("inequalities");
+    problem.inequalities = read_inequalities(problem.variables, entry);
+    problem.inequality_texts = read_texts(entry);
+  }
   if (root.has("box")) {
     problem.box.clear();
     for (const Entry& side : root.at("box").list(d)) problem.box.push_back(read_side(side));

@@ -34,8 +34,10 @@ struct Problem {
   enum class Source { kEquations, kNamed, kParametrization };
 
   Source source = Source::kEquations;
-  std::vector<std::string> variables{};  ///< d names; where the file gives none: x1 .. xd
-  std::optional<Function> function{};    ///< f: R^d -> R^k; kEquations, and kNamed where f is known
+  std::vector<std::string> variables{};         ///< d names; where the file gives none: x1 .. xd
+  std::optional<Function> function{};           ///< f: R^d -> R^k; kEquations, and kNamed where f is known
+  std::optional<Function> inequalities{};       ///< g: R^d -> R^m, the domain is g >= 0
+  std::vector<std::string> inequality_texts{};  ///< m, as in the file
   /// The closest-point oracle: kParametrization, and kNamed where it is known. With the file's reach, if it gives one.
   std::optional<Submanifold> submanifold{};
   std::vector<std::array<double, 2>> box{};        ///< d x (lower, upper), or empty: none was given, and none is known
