@@ -258,6 +258,7 @@ class Tracer : private LatticeValues {
   std::vector<std::uint64_t> form_sums_;  // over the subsets of one part
   std::vector<std::uint32_t> bit_sums_;
   std::vector<double> x_, f_values_, g_values_, weights_, sums_, y_;
+  mutable std::vector<double> point_;
 
   // The domain.
   std::optional<BoundaryTrace> boundary_;
@@ -336,7 +337,7 @@ void Tracer<Shape>::values(std::uint32_t vertex, double* out) const {
   const double* known = const_cast<Tracer*>(this)->value(vertex);
   for (std::size_t j = 0; j < num_given_; ++j) out[j] = -known[k_ + j];
   if (domain_.box()) {
-    std::vector<double> x(d_);
+    std::vector<double>& x = point_;
     triangulation_.cartesian({vertices_.coordinates(vertex), std::size_t(d_)}, x);
     for (int j = domain_.num_given(); j < domain_.num_inequalities(); ++j) out[j] = -domain_.box_value(j, x.data());
   }
@@ -857,6 +858,7 @@ TraceResult Tracer<Shape>::run(std::span<const double> seed_points) {
   weights_.resize(k_ + 1);
   sums_.resize(k_ + 1);
   y_.resize(d_);
+  point_.resize(d_);
 
   SeedSearch search(triangulation_, k_, [&](const std::int32_t* z, double* values) { return seed_value(z, values); });
   if (boundary_) search.accept_only([&](const Crossing& crossing) { return crossing_inside(crossing); });

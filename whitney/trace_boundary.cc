@@ -82,12 +82,28 @@ bool BoundaryTrace::load(const Simplex& simplex, Corners& corners) {
       return false;
     }
   }
-  corners.rows.resize(num * row_);
+  corners.rows.clear();
   corners.any.assign(domain_.num_words(), 0);
-  for (int q = 0; q < num; ++q) {
-    lattice_.values(corners.ids[q], &corners.rows[q * row_]);
-    const std::uint64_t* mask = lattice_.mask(corners.ids[q]);
+  for (std::uint32_t id : corners.ids) {
+    const std::uint64_t* mask = lattice_.mask(id);
     for (std::size_t word = 0; word < corners.any.size(); ++word) corners.any[word] |= mask[word];
+  }
+  return true;
+}
+
+void BoundaryTrace::load_rows(Corners& corners) {
+  if (!corners.rows.empty()) return;
+  corners.rows.resize(corners.ids.size() * row_);
+  for (std::size_t q = 0; q < corners.ids.size(); ++q) lattice_.values(corners.ids[q], &corners.rows[q * row_]);
+}
+
+// Whether a mask has no inequalities but those of a set.
+bool BoundaryTrace::only_in(const std::uint64_t* mask, const Set& set) const {
+  for (std::size_t word = 0; word < domain_.num_words(); ++word) {
+    std::uint64_t rest = mask[word];
+    for (int i : set)
+      if (i / 64 == static_cast<int>(word)) rest &= ~(std::uint64_t{1} << (i % 64));
+    if (rest != 0) return false;
   }
   return true;
 }
@@ -157,9 +173,10 @@ void BoundaryTrace::insert(const Simplex& simplex, Set set, bool from_exit, cons
 
 // From a point inside the domain along the segment of F_I in tau, whose far end is in the facet without vertex
 // `removed`.
-void BoundaryTrace::follow(const Simplex& tau, const Corners& corners, const Set& set, int removed, bool from_exit,
+void BoundaryTrace::follow(const Simplex& tau, Corners& corners, const Set& set, int removed, bool from_exit,
                            const InteriorVisitor* interior) {
   std::vector<int> violated;
+  load_rows(corners);
   CrossingPoint* far = nullptr;
   for (int j : bits(corners.any)) {
     if (contains(set, j)) continue;
@@ -181,7 +198,10 @@ void BoundaryTrace::follow(const Simplex& tau, const Corners& corners, const Set
 
 void BoundaryTrace::add_exit(const Simplex& tau, const Simplex& outside) {
   Corners corners, facet;
-  if (!load(tau, corners) || !load(outside, facet)) return;
+  if (!load(tau, corners)) return;
+  const std::vector<int> near = bits(corners.any);
+  if (near.size() == 1) return insert(tau, near, true, nullptr);
+  if (!load(outside, facet)) return;
   int removed = 0;
   while (removed < static_cast<int>(facet.ids.size()) && corners.ids[removed] == facet.ids[removed]) ++removed;
   follow(tau, corners, {}, removed, true, nullptr);
@@ -189,17 +209,8 @@ void BoundaryTrace::add_exit(const Simplex& tau, const Simplex& outside) {
 
 // Whether a further inequality cuts a simplex around (sigma, {i}).
 bool BoundaryTrace::others_near(const Simplex& simplex, const Corners& corners, const Set& set) {
-  auto only = [&](const std::uint64_t* mask) {
-    for (std::size_t word = 0; word < domain_.num_words(); ++word) {
-      std::uint64_t rest = mask[word];
-      for (int i : set)
-        if (i / 64 == static_cast<int>(word)) rest &= ~(std::uint64_t{1} << (i % 64));
-      if (rest != 0) return false;
-    }
-    return true;
-  };
-  if (only(lattice_.mask_of_all())) return false;
-  if (!only(corners.any.data())) return true;
+  if (only_in(lattice_.mask_of_all(), set)) return false;
+  if (!only_in(corners.any.data(), set)) return true;
   if (simplex.codim() == 0) return false;
   return !coxeter::for_each_cofacet(simplex, [&](const Simplex& tau) {
     coxeter::LatticeVertex z = tau.base();
@@ -207,7 +218,7 @@ bool BoundaryTrace::others_near(const Simplex& simplex, const Corners& corners, 
       if (q > 0)
         for (std::uint16_t c : tau.partition().part(q - 1)) ++z[c];
       const std::uint32_t id = lattice_.vertex(z);
-      if (id != LatticeValues::kUnreachable && !only(lattice_.mask(id))) return false;
+      if (id != LatticeValues::kUnreachable && !only_in(lattice_.mask(id), set)) return false;
     }
     return true;
   });
@@ -219,9 +230,12 @@ void BoundaryTrace::process(const Task& task, const InteriorVisitor& interior) {
   if (!load(task.simplex, corners)) return;
   const bool near = set.size() > 1 || others_near(task.simplex, corners, set);
   if (!near && task.from_exit) return;
+  load_rows(corners);
 
-  // To the inside of every inequality: of the two facets in which F_{I-i} takes its target, one is there.
+  // To the inside of every inequality: of the two facets in which F_{I-i} takes its target, one is there. An exit came
+  // from there.
   for (int i : set) {
+    if (task.from_exit) break;
     Set released = set;
     released.erase(released.begin() + position_in(set, i));
     for (int removed = 0; removed <= task.simplex.dim(); ++removed) {
@@ -233,21 +247,22 @@ void BoundaryTrace::process(const Task& task, const InteriorVisitor& interior) {
   }
   if (!near || task.simplex.codim() == 0) return;
 
-  // Over every cofacet.
+  // Over every cofacet, but those in whose cell (sigma, {i}) is alone with its inequality.
   struct Cofacet {
     Simplex simplex;
     Corners corners;
     int added, removed;
   };
   std::vector<Cofacet> cofacets;
+  Corners around;
   coxeter::for_each_cofacet(task.simplex, [&](const Simplex& tau) {
-    Cofacet cofacet{tau, {}, 0, 0};
-    if (!load(tau, cofacet.corners)) return;
-    const auto& ids = corners.ids;
-    while (cofacet.added < static_cast<int>(ids.size()) && cofacet.corners.ids[cofacet.added] == ids[cofacet.added])
-      ++cofacet.added;
-    cofacets.push_back(std::move(cofacet));
+    if (!load(tau, around) || (set.size() == 1 && only_in(around.any.data(), set))) return;
+    load_rows(around);
+    int added = 0;
+    while (added < static_cast<int>(corners.ids.size()) && around.ids[added] == corners.ids[added]) ++added;
+    cofacets.push_back({tau, around, added, 0});
   });
+  if (cofacets.empty()) return;
   CrossingPoint& point = load_map(corners, set, -1);
   std::vector<double> value;
   for (Cofacet& cofacet : cofacets) {
@@ -255,12 +270,10 @@ void BoundaryTrace::process(const Task& task, const InteriorVisitor& interior) {
     value.clear();
     for (int j : set) value.push_back(row[j]);
     value.insert(value.end(), row + num_inequalities_, row + row_);
-    value.resize(value.size() + BarycentricKernel::kSlack);
     const int leaving = point.leaving(value.data());
     cofacet.removed = leaving + (leaving >= cofacet.added);
   }
-  for (const Cofacet& cofacet : cofacets)
-    follow(cofacet.simplex, cofacet.corners, set, cofacet.removed, false, &interior);
+  for (Cofacet& cofacet : cofacets) follow(cofacet.simplex, cofacet.corners, set, cofacet.removed, false, &interior);
 }
 
 bool BoundaryTrace::grow(std::size_t steps, const InteriorVisitor& interior) {
@@ -289,6 +302,7 @@ bool BoundaryTrace::find_in(const Simplex& full) {
       Corners face_corners;
       const bool none = coxeter::for_each_face(full, codim_ + size, [&](const Simplex& face) {
         if (!load(face, face_corners)) return true;
+        load_rows(face_corners);
         CrossingPoint& point = load_map(face_corners, set, -1);
         if (!point.hit()) return true;
         for (int j : near)
@@ -305,6 +319,7 @@ bool BoundaryTrace::find_in(const Simplex& full) {
 std::vector<double> BoundaryTrace::weights(const Simplex& sigma, const std::vector<int>& inequalities) {
   Corners corners;
   load(sigma, corners);
+  load_rows(corners);
   return load_map(corners, inequalities, -1).weights();
 }
 

@@ -96,19 +96,22 @@ class BoundaryTrace {
     const Set* set;
     bool from_exit;
   };
-  // Values at the vertices of one simplex, a row each, and which inequalities are violated where.
+  // The vertices of one simplex, and which inequalities are violated at some of them; after load_rows also the values,
+  // a row a vertex.
   struct Corners {
     std::vector<std::uint32_t> ids;
+    std::vector<std::uint64_t> any;
     std::vector<double> rows;
-    std::vector<std::uint64_t> any;  // mask: violated at some vertex
   };
 
   bool load(const coxeter::Simplex& simplex, Corners& corners);
+  void load_rows(Corners& corners);
+  bool only_in(const std::uint64_t* mask, const Set& set) const;
   CrossingPoint& solver(int codim);
   // Loads F_I on the vertices of the corners but number `removed` (-1: on all).
   CrossingPoint& load_map(const Corners& corners, const Set& set, int removed);
   bool below(CrossingPoint& point, const Corners& corners, const Set& set, int removed, int inequality);
-  void follow(const coxeter::Simplex& tau, const Corners& corners, const Set& set, int removed, bool from_exit,
+  void follow(const coxeter::Simplex& tau, Corners& corners, const Set& set, int removed, bool from_exit,
               const InteriorVisitor* interior);
   void insert(const coxeter::Simplex& simplex, Set set, bool from_exit, const InteriorVisitor* interior);
   bool others_near(const coxeter::Simplex& simplex, const Corners& corners, const Set& set);
