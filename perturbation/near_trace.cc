@@ -22,6 +22,7 @@ void canonical_order(const NearSimplices& near, std::vector<std::uint32_t>& simp
 NearTrace trace_near(NearSimplices& near, std::span<const std::uint32_t> starts, const NearTraceOptions& options) {
   const int d = near.ambient_dim();
   NearTrace trace;
+  trace.region = options.region;
   std::vector<char> seen;
   const auto reach = [&](std::uint32_t s) {
     if (seen.size() <= s) seen.resize(std::max<std::size_t>(near.num_simplices(), s + 1), 0);
@@ -38,7 +39,9 @@ NearTrace trace_near(NearSimplices& near, std::span<const std::uint32_t> starts,
     const std::uint32_t s = trace.simplices[next];
     const std::uint32_t hit = near.evaluate(s, options.enough, options.with_midpoints).hit_facets;
     for (int q = 0; q <= d; ++q)
-      if (hit >> q & 1) reach(near.neighbour(s, q));
+      if (hit >> q & 1)
+        if (const std::uint32_t other = near.neighbour(s, q); !options.region || options.region(near, other))
+          reach(other);
   }
   if (!trace.complete) trace.simplices.resize(std::min(trace.simplices.size(), options.max_simplices));
   canonical_order(near, trace.simplices);

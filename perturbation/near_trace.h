@@ -12,12 +12,16 @@
 
 namespace whitney::perturbation {
 
+/// Which d-simplices a walk may enter; all of them when it is empty. It must not depend on displacements.
+using Region = std::function<bool(const NearSimplices&, std::uint32_t simplex)>;
+
 struct NearTraceOptions {
   /// Feet are tried until the margin of a simplex is at least this.
   double enough = 1.02;
   /// Try the feet of the midpoints of edges too before a lower margin is accepted.
   bool with_midpoints = true;
   std::size_t max_simplices = std::numeric_limits<std::size_t>::max();
+  Region region{};
   /// Asked every few dozen simplices; false stops the trace.
   std::function<bool()> keep_going;
 };
@@ -27,6 +31,7 @@ struct NearTraceOptions {
 struct NearTrace {
   std::vector<std::uint32_t> simplices;  ///< in canonical order, see canonical_order
   bool complete = true;                  ///< the walk ended by itself
+  Region region{};                       ///< of the options: it did not go further than that
 };
 
 /// Walks from the start simplices across hit facets: V of the global theorem, if all it finds is certified.

@@ -45,6 +45,7 @@ class Repairer {
       trace_options.enough = polish ? options_.accept : target;
       trace_options.with_midpoints = polish;
       trace_options.max_simplices = options_.max_simplices;
+      trace_options.region = options_.region;
       trace_options.keep_going = options_.keep_going;
       keep_starts_hit();
       const NearTrace trace = trace_near(near_, starts_, trace_options);

@@ -27,6 +27,7 @@ struct RepairOptions {
   /// Trials of the polish per failing simplex and round.
   int trials = 60;
   std::size_t max_simplices = 20'000'000;
+  Region region{};  ///< of the traces
   /// Asked often; false stops the repair.
   std::function<bool()> keep_going;
 };

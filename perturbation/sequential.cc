@@ -226,6 +226,7 @@ SequentialResult sequential(NearSimplices& near, std::span<const std::uint32_t> 
   NearTraceOptions trace_options;
   trace_options.enough = options.accept;
   trace_options.max_simplices = options.max_simplices;
+  trace_options.region = options.region;
   trace_options.keep_going = options.keep_going;
   std::vector<std::uint32_t> from(starts.begin(), starts.end());
   std::vector<std::vector<double>> feet(from.size());  // points of M near the starts, where there are any

@@ -26,6 +26,7 @@ struct SequentialOptions {
   double accept = 1.02;
   int max_rounds = 50;
   std::size_t max_simplices = 20'000'000;
+  Region region{};  ///< of the traces
   /// Asked often; false stops the scheme.
   std::function<bool()> keep_going;
 };

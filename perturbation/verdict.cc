@@ -144,6 +144,7 @@ CertificateReport certify(NearSimplices& near, const NearTrace& trace, double em
         const std::uint32_t other = near.neighbour(s, q);
         const int back = q == 0 ? d : q == d ? 0 : q;
         if (other < in_trace.size() && in_trace[other] && (state[other].hit_facets >> back & 1)) continue;
+        if (trace.region && !trace.region(near, other)) continue;
         object(s, near.evaluate(s, 0).margin, "its neighbour across a facet that is hit is not certified to be hit",
                {});
         break;

@@ -15,7 +15,11 @@ namespace whitney::perturbation {
 
 enum class Verdict {
   /// T~ is an embedded triangulation, every simplex of the trace is certified in interval arithmetic, and so is its
-  /// neighbour across every hit facet: K is homeomorphic to the components of M that the trace meets.
+  /// neighbour across every hit facet: K is homeomorphic to the components of M that the trace meets. When the trace
+  /// kept
+  /// to a region: across every hit facet that does not leave it, and K is homeomorphic to the part of M in the
+  /// simplices
+  /// of the trace.
   kCertified,
   /// Proved that the triangulation is too coarse or badly placed: see the violation.
   kViolated,

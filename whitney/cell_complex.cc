@@ -298,6 +298,18 @@ bool is_complete(std::span<const std::uint32_t> cell_facets, int cell_dim, const
   return true;
 }
 
+/// The simplex with these part numbers of the coordinates 0..d-1.
+template <class Index>
+coxeter::Simplex simplex_of(const std::vector<std::int32_t>& vertex_coordinates, std::uint32_t base, const Index* parts,
+                            int ambient_dim, int dim) {
+  const std::int32_t* z = &vertex_coordinates[std::size_t{base} * ambient_dim];
+  std::vector<std::uint16_t> part_indices(parts, parts + ambient_dim);
+  // Element d is in the last part: alone there, or with the coordinates of the highest number. The dimension tells.
+  part_indices.push_back(static_cast<std::uint16_t>(dim));
+  return {coxeter::LatticeVertex(std::span(z, std::size_t(ambient_dim))),
+          coxeter::OrderedPartition::from_part_indices(part_indices)};
+}
+
 /// How many of the rows that are kept come before the old row numbers in `begin`.
 std::vector<std::uint32_t> kept_before(const std::vector<std::uint32_t>& begin, const std::vector<char>& keep) {
   std::vector<std::uint32_t> count{0};
@@ -348,6 +360,10 @@ CellComplex build(const CrossedSimplices& crossed, std::span<const Index> parts)
     if (!whole) {
       std::vector<char> keep(next.level.base.size());
       for (std::size_t i = 0; i < keep.size(); ++i) keep[i] = is_complete(facets[i], j + 1, complex.facets[j]);
+      if (j + 1 == n && crossed.keep_top)
+        for (std::size_t i = 0; i < keep.size(); ++i)
+          keep[i] = keep[i] && crossed.keep_top(simplex_of(complex.vertex_coordinates, next.level.base[i],
+                                                           &next.level.parts[i * d], d, d));
       complex.num_dropped += std::count(keep.begin(), keep.end(), 0);
       next.begin = kept_before(next.begin, keep);
       keep_rows(next.level, facets, d, keep);
@@ -392,14 +408,9 @@ std::size_t CellComplex::set_of(int j, std::size_t i) const {
 }
 
 coxeter::Simplex CellComplex::simplex(int j, std::size_t i) const {
-  const std::int32_t* z = &vertex_coordinates[std::size_t{simplices[j].base[i]} * ambient_dim];
-  const std::uint16_t* first = &simplices[j].parts[i * ambient_dim];
-  std::vector<std::uint16_t> part_indices(first, first + ambient_dim);
-  // Element d is in the last part: alone there, or with the coordinates of the highest number. The dimension tells.
-  part_indices.push_back(
-      static_cast<std::uint16_t>(ambient_dim - intrinsic_dim + inequality_sets[set_of(j, i)].size() + j));
-  return {coxeter::LatticeVertex(std::span(z, std::size_t(ambient_dim))),
-          coxeter::OrderedPartition::from_part_indices(part_indices)};
+  const int codim = ambient_dim - intrinsic_dim, cut = static_cast<int>(inequality_sets[set_of(j, i)].size());
+  return simplex_of(vertex_coordinates, simplices[j].base[i], &simplices[j].parts[i * ambient_dim], ambient_dim,
+                    codim + cut + j);
 }
 
 CellComplex cell_complex(const CrossedSimplices& crossed) {

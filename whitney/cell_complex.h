@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -80,6 +81,8 @@ struct CrossedSimplices {
   std::span<const BoundarySimplices> boundary{};
   int num_given = 0;  ///< see CellComplex
   bool whole = true;  ///< all simplices that the manifold crosses are there
+  /// Unless empty, and the complex is not whole: n-cells for whose d-simplex this is false are left out.
+  std::function<bool(const coxeter::Simplex&)> keep_top{};
 };
 
 /// Builds the cell complex of crossed simplices: every coface of a simplex that is hit is hit, so the (j+1)-cells are

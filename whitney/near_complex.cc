@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 namespace whitney {
 namespace {
@@ -132,6 +133,18 @@ NearComplex near_complex(NearSimplices& near, const NearTrace& trace, bool whole
   crossed.parts = parts;
   crossed.points = sorted_points;
   crossed.whole = whole;
+  // Cells of simplices that the trace did not enter may have all their 0-cells in it.
+  std::set<coxeter::Simplex> entered;
+  if (trace.region) {
+    for (const std::uint32_t s : trace.simplices) {
+      entered.insert(near.simplex(s));
+      const std::uint32_t hit = near.evaluate(s, 0).hit_facets;
+      for (int q = 0; q <= d && !result.cut; ++q)
+        result.cut = (hit >> q & 1) && !trace.region(near, near.neighbour(s, q));
+    }
+    crossed.keep_top = [&](const coxeter::Simplex& simplex) { return entered.contains(simplex); };
+    crossed.whole = whole && !result.cut;
+  }
   result.complex = cell_complex(crossed);
   return result;
 }

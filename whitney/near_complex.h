@@ -17,6 +17,9 @@ struct NearComplex {
   /// tangential part of x is within max abs(N^T (q_i - p)) + h(max abs(T^T (q_i - p))) of x, plus the errors of the
   /// foot. Infinite when a simplex has no foot with (C).
   double distance_bound = 0;
+  /// M goes on across facets that the region of the trace did not let it cross. The complex then has the n-cells of the
+  /// simplices of the trace, and no others.
+  bool cut = false;
 };
 
 /// whole: the trace is all that M meets, and every simplex certified; otherwise cells that miss a face are left out.

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <memory>
 #include <sstream>
 
 namespace whitney {
@@ -59,6 +60,40 @@ class Oracle : public perturbation::FootOracle {
   const Bending& bending_;
   const std::optional<Box>& box_;
   double edge_length_;
+};
+
+/// The d-simplices that g >= 0 may meet: no inequality is violated at all vertices.
+class DomainRegion {
+ public:
+  DomainRegion(const Domain& domain, const coxeter::Triangulation& triangulation)
+      : domain_(domain), triangulation_(triangulation) {}
+
+  bool operator()(const NearSimplices& near, std::uint32_t simplex) {
+    const std::size_t words = domain_.num_words();
+    std::vector<std::uint64_t> all(words, ~std::uint64_t{0});
+    for (int q = 0; q <= near.ambient_dim(); ++q) {
+      const std::uint32_t v = near.corners(simplex)[q];
+      for (; known_ <= v; ++known_) add(near, static_cast<std::uint32_t>(known_));
+      for (std::size_t word = 0; word < words; ++word) all[word] &= masks_[v * words + word];
+    }
+    return std::all_of(all.begin(), all.end(), [](std::uint64_t bits) { return bits == 0; });
+  }
+
+ private:
+  void add(const NearSimplices& near, std::uint32_t v) {
+    std::vector<double> x(near.ambient_dim());
+    triangulation_.cartesian(near.lattice_vertex(v), x);
+    const std::vector<double> g = domain_.values(x);
+    for (std::size_t j = 0; j < g.size(); ++j)
+      if (!std::isfinite(g[j])) throw OracleError(domain_.name(static_cast<int>(j)) + " is not finite at " + place(x));
+    masks_.resize(masks_.size() + domain_.num_words());
+    domain_.set_mask(x.data(), g.data(), &masks_[masks_.size() - domain_.num_words()]);
+  }
+
+  const Domain& domain_;
+  const coxeter::Triangulation& triangulation_;
+  std::vector<std::uint64_t> masks_;
+  std::size_t known_ = 0;
 };
 
 class Watch {
@@ -125,6 +160,13 @@ TriangulateResult triangulate(const Submanifold& manifold, const Bending& bendin
   check(manifold, bending, triangulation, seed_points, options);
   const int d = manifold.ambient_dim();
   const Oracle oracle(manifold, bending, options.box, triangulation.edge_length());
+  const Domain domain(d, options.inequalities, std::nullopt);
+  // Each set of simplices numbers its vertices in its own way.
+  const auto make_region = [&]() -> perturbation::Region {
+    if (domain.empty()) return {};
+    return [region = std::make_shared<DomainRegion>(domain, triangulation)](
+               const NearSimplices& near, std::uint32_t s) { return (*region)(near, s); };
+  };
   const double width = coxeter::simplex_width(triangulation);
   const Watch watch;
   TriangulateResult result;
@@ -176,6 +218,7 @@ TriangulateResult triangulate(const Submanifold& manifold, const Bending& bendin
       repair_options.rng_seed = options.rng_seed;
       repair_options.max_rounds = options.max_rounds;
       repair_options.max_simplices = options.max_simplices;
+      repair_options.region = make_region();
       repair_options.keep_going = keep_going;
       result.rounds = perturbation::repair(near, starts, repair_options).rounds;
     } else if (options.scheme == TriangulateOptions::Scheme::kSequential && !starts.empty()) {
@@ -185,6 +228,7 @@ TriangulateResult triangulate(const Submanifold& manifold, const Bending& bendin
       sequential_options.rng_seed = options.rng_seed;
       sequential_options.max_rounds = options.max_rounds;
       sequential_options.max_simplices = options.max_simplices;
+      sequential_options.region = make_region();
       sequential_options.keep_going = keep_going;
       for (const auto& round : perturbation::sequential(near, starts, sequential_options).rounds)
         result.rounds.push_back({round.simplices, round.failing, round.worst_margin, false});
@@ -211,6 +255,7 @@ TriangulateResult triangulate(const Submanifold& manifold, const Bending& bendin
   const std::vector<std::uint32_t> starts = find_starts(near);
   NearTraceOptions trace_options;
   trace_options.max_simplices = options.max_simplices;
+  trace_options.region = make_region();
   // What was found by then is wanted even when the search was stopped, but not at any price.
   const bool stopped_before = result.stopped;
   const double deadline = 1.25 * watch.seconds() + 1;
@@ -232,12 +277,13 @@ TriangulateResult triangulate(const Submanifold& manifold, const Bending& bendin
   if (!trace.simplices.empty()) {
     NearComplex cut = near_complex(near, trace, whole);
     result.complex = std::move(cut.complex);
-    if (whole && options.place_on_manifold) {
+    result.cut = cut.cut;
+    if (whole && options.place_on_manifold && !result.cut) {
       PlacedComplex placed =
           place_on_manifold(std::move(result.complex), triangulation, displacements, manifold, bending);
       result.complex = std::move(placed.complex);
       result.hausdorff_bound = placed.distance_bound;
-    } else if (whole) {
+    } else if (whole && !result.cut) {
       result.hausdorff_bound = cut.distance_bound;
     }
   }

@@ -36,6 +36,10 @@ struct TriangulateOptions {
   double displacement_fraction = 0.999;
   /// M lies inside this box, or it is an error: an unbounded manifold is found out where it leaves.
   std::optional<Box> box;
+  /// g: R^d -> R^m: only the part of M near g >= 0 is triangulated and certified: d-simplices whose vertices (of T, not
+  /// displaced) all violate the same inequality are not entered. The complex is made of whole simplices, so it ends
+  /// beyond g = 0, by less than an edge length; it is not placed on M, and there is no Hausdorff bound from M to K.
+  std::optional<Function> inequalities;
   std::uint64_t rng_seed = 1;
   int max_rounds = 16;
   /// Moves the 0-cells onto M when the result is certified (see place_on_manifold.h): without, K may have steep
@@ -75,6 +79,7 @@ struct TriangulateResult {
   bool stopped = false;  ///< by max_simplices, time_limit or progress
   std::string stop_reason = "none";
   double edge_length = 0;  ///< of the triangulation (a length)
+  bool cut = false;        ///< M goes on beyond the complex, where the inequalities of the options end
   double seconds_perturb = 0, seconds_certify = 0, seconds_complex = 0;
   /// The perturbed triangulation: displacements of the lattice vertices that moved.
   perturbation::DisplacementMap displacements{1};
@@ -85,10 +90,12 @@ struct TriangulateResult {
 /// perturbation/README.md.
 ///
 /// seed_points: m x d; a trace starts near the foot of each. The result is about the components of M that they lie on.
-/// bending: what is known of M (reach and curvature); the verdict rests on it. triangulation: Coxeter or
-/// Freudenthal, moved and scaled, with d <= 31, or any other affine image with d <= 12.
-/// Throws InvalidInput on sizes that do not fit, values that are not finite, or a manifold that leaves options.box (the
-/// message names the place), OracleError when the oracle fails.
+/// With options.inequalities, "certified" means: K is homeomorphic to the part of M in the union of the certified
+/// simplices, which holds every point that a path in M joins to a seed with all d-simplices along it entered; so away
+/// from the boundary the topology is right, and nothing is said of M beyond. bending: what is known of M (reach and
+/// curvature); the verdict rests on it. triangulation: Coxeter or Freudenthal, moved and scaled, with d <= 31, or any
+/// other affine image with d <= 12. Throws InvalidInput on sizes that do not fit, values that are not finite, or a
+/// manifold that leaves options.box (the message names the place), OracleError when the oracle fails.
 TriangulateResult triangulate(const Submanifold& manifold, const Bending& bending,
                               const coxeter::Triangulation& triangulation, std::span<const double> seed_points,
                               const TriangulateOptions& options = {});
