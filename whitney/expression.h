@@ -37,7 +37,7 @@ CompiledMap compile(std::span<const std::string> variables, std::span<const std:
 /// The Function of the equations `expression = 0`, with exact derivatives. 1 <= k <= d.
 Function parse_equations(std::span<const std::string> variables, std::span<const std::string> equations);
 
-/// The Function of a compiled map, 1 <= k <= d. Throws InvalidInput when the tapes do not fit together.
+/// The Function of a compiled map, k >= 1. Throws InvalidInput when the tapes do not fit together.
 Function make_function(CompiledMap map);
 
 /// The value of an expression without variables: "2*pi".
