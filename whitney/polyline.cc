@@ -68,6 +68,25 @@ PolylinePlace inner_place(const std::vector<double>& parameters, std::size_t nex
   return {next - 1, false, std::clamp((parameter - parameters[next - 1]) / width, 0.0, 1.0)};
 }
 
+/// All vertices of both, in order; parameters that are equal are one station.
+std::vector<CommonRefinement::Station> merged(const std::vector<double>& first, const std::vector<double>& second) {
+  std::vector<CommonRefinement::Station> stations{{}};
+  const std::size_t last_i = first.size() - 1, last_j = second.size() - 1;
+  for (std::size_t i = 1, j = 1; i < last_i || j < last_j;) {
+    if (i < last_i && j < last_j && first[i] == second[j]) {
+      stations.push_back({{i++, true, 0}, {j++, true, 0}});
+    } else if (j == last_j || (i < last_i && first[i] < second[j])) {
+      stations.push_back({{i, true, 0}, inner_place(second, j, first[i])});
+      ++i;
+    } else {
+      stations.push_back({inner_place(first, i, second[j]), {j, true, 0}});
+      ++j;
+    }
+  }
+  stations.push_back({{last_i, true, 0}, {last_j, true, 0}});
+  return stations;
+}
+
 std::vector<double> point_at(const Polyline& polyline, const PolylinePlace& place) {
   if (!place.is_vertex) return polyline.point(place.index, place.fraction);
   const auto vertex = polyline.vertex(place.index);
@@ -147,25 +166,9 @@ CommonRefinement common_refinement(const Polyline& first, const Polyline& second
   // From here on both polylines are parametrised over [0, 1], by (about) the arc length of the second.
   on_first = strictly_increasing(std::move(on_first));
   const std::vector<double> on_second = strictly_increasing(arc_fractions(second));
-  identify(on_first, on_second);
 
   CommonRefinement result;
-  result.stations.push_back({});
-  const std::size_t last_i = first.num_vertices() - 1, last_j = second.num_vertices() - 1;
-  for (std::size_t i = 1, j = 1; i < last_i || j < last_j;) {
-    if (i < last_i && j < last_j && on_first[i] == on_second[j]) {
-      result.stations.push_back({{i++, true, 0}, {j++, true, 0}});
-    } else if (j == last_j || (i < last_i && on_first[i] < on_second[j])) {
-      result.stations.push_back({{i, true, 0}, inner_place(on_second, j, on_first[i])});
-      ++i;
-    } else {
-      result.stations.push_back({inner_place(on_first, i, on_second[j]), {j, true, 0}});
-      ++j;
-    }
-  }
-  result.stations.push_back({{last_i, true, 0}, {last_j, true, 0}});
-
-  for (const CommonRefinement::Station& station : result.stations) {
+  for (const CommonRefinement::Station& station : merged(on_first, on_second)) {
     std::vector<double> here = internal::point_at(first, station.first);
     const double apart = distance(here, internal::point_at(second, station.second));
     if (result.worst_place.empty() || apart > result.worst_distance) {
@@ -173,6 +176,8 @@ CommonRefinement common_refinement(const Polyline& first, const Polyline& second
       result.worst_place = std::move(here);
     }
   }
+  identify(on_first, on_second);
+  result.stations = merged(on_first, on_second);
   return result;
 }
 

@@ -55,8 +55,9 @@ struct CommonRefinement {
   struct Station {
     PolylinePlace first, second;
   };
-  std::vector<Station> stations;      ///< in order along both; the ends of one polyline go with those of the other
-  double worst_distance = 0;          ///< largest distance of a point from its image: bounds the Frechet distance
+  std::vector<Station> stations;  ///< in order along both; the ends of one polyline go with those of the other
+  /// Largest distance of a point from its image, before vertices were identified: bounds the Frechet distance.
+  double worst_distance = 0;
   std::vector<double> worst_place{};  ///< where it occurs, on the first polyline
 };
 
@@ -65,7 +66,7 @@ struct CommonRefinement {
 /// The first is walked along; each of its vertices goes to the nearest point of the second among those not passed yet
 /// and within reach: no further than three times the step on the first, plus `slack` (a length: what the polylines may
 /// be apart, with room to spare). Points that fell together are spread by arc length. A vertex of one polyline
-/// that is much nearer to one of the other than to its neighbours is identified with it.
+/// that is nearer to one of the other than a quarter of the segments at both is identified with it.
 CommonRefinement common_refinement(const Polyline& first, const Polyline& second, double slack);
 
 }  // namespace whitney::internal
