@@ -6,12 +6,9 @@
 #include <whitney/orientation.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
-#include <optional>
 #include <set>
 #include <sstream>
 #include <utility>
@@ -147,6 +144,10 @@ class Gluer {
     }
   }
 
+  /// Boundary edges of surfaces, from both ends, and the inequality of the part that they belong to.
+  using BoundaryEdges = std::map<Vertex, std::map<Vertex, int>>;
+  static constexpr int kFree = -1;  ///< in no part
+
   void add_pieces() {
     for (std::size_t c = 0; c < pieces_.size(); ++c) {
       try {
@@ -155,57 +156,32 @@ class Gluer {
         throw InvalidInput(chart_name(c) + ": " + error.what());
       }
     }
-    // Boundary edges around each vertex, and the part that each belongs to (-1: none).
-    constexpr int kFree = -1;
-    std::map<Vertex, std::map<Vertex, int>> beside;
+    BoundaryEdges beside;
     if (dim_ == 2) {
       for (const auto& [a, b] : quilt_.boundary_edges()) beside[a][b] = beside[b][a] = kFree;
-      for (const auto& [v, edges] : beside) {
-        if (edges.size() == 2) continue;
-        const int c = quilt_.patch_of(v);
-        throw InvalidInput(chart_name(c) + ": " + std::to_string(edges.size()) + " boundary edges meet at vertex " +
-                           std::to_string(v - first_vertex_[c]) + ": the piece is no surface there");
-      }
     }
+    for (const auto& [v, edges] : beside) {
+      if (edges.size() == 2) continue;
+      const int c = quilt_.patch_of(v);
+      throw InvalidInput(chart_name(c) + ": " + std::to_string(edges.size()) + " boundary edges meet at vertex " +
+                         std::to_string(v - first_vertex_[c]) + ": the piece is no surface there");
+    }
+    std::set<Vertex> ends;
     for (std::size_t c = 0; c < pieces_.size(); ++c) {
-      std::set<Vertex> ends;
       for (const BoundaryPart& boundary : pieces_[c].boundary) {
         const std::string name = side_name(c, boundary.inequality);
-        const auto [at, is_new] = parts_.try_emplace({static_cast<int>(c), boundary.inequality});
         if (boundary.inequality < 0) throw InvalidInput(name + ": inequalities are numbered from 0");
+        const auto [part, is_new] = parts_.try_emplace({static_cast<int>(c), boundary.inequality});
         if (!is_new) throw InvalidInput(name + ": has two boundary parts");
-        if (boundary.simplices.size() % dim_ != 0) throw InvalidInput(name + ": an odd number of vertices for edges");
         for (const std::uint32_t v : boundary.simplices) {
           if (v >= pieces_[c].mesh.num_points()) {
             throw InvalidInput(name + ": there is no vertex " + std::to_string(v));
           }
         }
-        for (std::size_t i = 0; i < boundary.simplices.size(); i += dim_) {
-          const Vertex a = first_vertex_[c] + boundary.simplices[i];
-          if (dim_ == 1) {
-            if (quilt_.degree(a) != 1) {
-              throw InvalidInput(name + ": vertex " + std::to_string(boundary.simplices[i]) +
-                                 " is no end of the curve");
-            }
-            if (!ends.insert(a).second) {
-              throw InvalidInput(name + ": vertex " + std::to_string(boundary.simplices[i]) + " is in two parts");
-            }
-            at->second.corners.push_back(a);
-            continue;
-          }
-          const Vertex b = first_vertex_[c] + boundary.simplices[i + 1];
-          const std::string edge = "the edge of vertices " + std::to_string(boundary.simplices[i]) + " and " +
-                                   std::to_string(boundary.simplices[i + 1]);
-          const auto from_a = beside.find(a);
-          const auto entry = from_a == beside.end() ? std::map<Vertex, int>::iterator{} : from_a->second.find(b);
-          if (from_a == beside.end() || entry == from_a->second.end()) {
-            throw InvalidInput(name + ": " + edge + " is not on the boundary of the piece");
-          }
-          if (entry->second != kFree) {
-            throw InvalidInput(name + ": " + edge + " is there twice, or is in the part of inequality " +
-                               std::to_string(entry->second) + ", too");
-          }
-          entry->second = beside[b][a] = boundary.inequality;
+        if (dim_ == 1) {
+          part->second.corners = end_points(c, boundary, ends);
+        } else {
+          mark_edges(c, boundary, beside);
         }
       }
     }
@@ -213,8 +189,37 @@ class Gluer {
     for (auto& [where, part] : parts_) std::sort(part.corners.begin(), part.corners.end());
   }
 
+  std::vector<Vertex> end_points(std::size_t c, const BoundaryPart& boundary, std::set<Vertex>& taken) const {
+    std::vector<Vertex> points;
+    for (const std::uint32_t v : boundary.simplices) {
+      const std::string what = side_name(c, boundary.inequality) + ": vertex " + std::to_string(v);
+      points.push_back(first_vertex_[c] + v);
+      if (quilt_.degree(points.back()) != 1) throw InvalidInput(what + " is no end of the curve");
+      if (!taken.insert(points.back()).second) throw InvalidInput(what + " is there twice, or in two parts");
+    }
+    return points;
+  }
+
+  void mark_edges(std::size_t c, const BoundaryPart& boundary, BoundaryEdges& beside) const {
+    const std::string name = side_name(c, boundary.inequality);
+    if (boundary.simplices.size() % 2 != 0) throw InvalidInput(name + ": an odd number of vertices for edges");
+    for (std::size_t i = 0; i < boundary.simplices.size(); i += 2) {
+      const Vertex a = first_vertex_[c] + boundary.simplices[i], b = first_vertex_[c] + boundary.simplices[i + 1];
+      const std::string edge = name + ": the edge of vertices " + std::to_string(boundary.simplices[i]) + " and " +
+                               std::to_string(boundary.simplices[i + 1]);
+      if (!beside.contains(a) || !beside[a].contains(b)) {
+        throw InvalidInput(edge + " is not on the boundary of the piece");
+      }
+      if (beside[a][b] != kFree) {
+        throw InvalidInput(edge + " is there twice, or is in the part of inequality " + std::to_string(beside[a][b]) +
+                           ", too");
+      }
+      beside[a][b] = beside[b][a] = boundary.inequality;
+    }
+  }
+
   /// Fills the arcs, loops and corners of the parts.
-  void take_apart(const std::map<Vertex, std::map<Vertex, int>>& beside) {
+  void take_apart(const BoundaryEdges& beside) {
     std::set<std::pair<Vertex, Vertex>> done;
     const auto is_corner = [&](Vertex v) {
       const auto& edges = beside.at(v);
@@ -290,38 +295,27 @@ class Gluer {
     report.num_corners = first.corners.size();
     report.num_arcs = first.arcs.size();
     report.num_loops = first.loops.size();
-    allowed_ = options_.max_distance * longest_edge(s, first, second);
+    allowed_ = options_.max_distance * longest_edge(s, first);
     const Matching corners = match_corners(s, first, second, report);
     glue_arcs(s, first, second, corners, report);
     glue_loops(s, first, second, report);
     return report;
   }
 
-  /// Of both parts, in the second chart's coordinates.
-  double longest_edge(std::size_t s, const Part& first, const Part& second) const {
+  /// Of the second piece, and of the first part in the second chart's coordinates. A part alone may consist of the tiny
+  /// edges that a cut leaves.
+  double longest_edge(std::size_t s, const Part& first) const {
     double longest = 0;
     const auto take = [&](std::vector<double> points) {
       longest = std::max(longest, Polyline(std::move(points), ambient_dim_).longest_segment());
     };
-    const auto closed = [](std::vector<Vertex> loop) {
-      loop.push_back(loop.front());
-      return loop;
-    };
     for (const auto& arc : first.arcs) take(images(s, arc));
-    for (const auto& arc : second.arcs) take(own_points(arc));
-    for (const auto& loop : first.loops) take(images(s, closed(loop)));
-    for (const auto& loop : second.loops) take(own_points(closed(loop)));
-    if (dim_ == 1 && !first.corners.empty()) {
-      const std::set<Vertex> first_ends(first.corners.begin(), first.corners.end()),
-          second_ends(second.corners.begin(), second.corners.end());
-      for (std::size_t e = 0; e < quilt_.num_simplices(); ++e) {
-        const auto edge = quilt_.simplex(e);
-        const auto ends_in = [&](const std::set<Vertex>& ends) {
-          return ends.contains(edge[0]) || ends.contains(edge[1]);
-        };
-        if (ends_in(first_ends)) take(images(s, edge));
-        if (ends_in(second_ends)) take(own_points(edge));
-      }
+    for (std::vector<Vertex> loop : first.loops) {
+      loop.push_back(loop.front());
+      take(images(s, loop));
+    }
+    for (std::size_t i = 0; i < quilt_.num_simplices(); ++i) {
+      if (quilt_.patch_of_simplex(i) == seams_[s].second_chart) take(own_points(quilt_.simplex(i)));
     }
     return longest;
   }

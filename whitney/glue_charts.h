@@ -37,8 +37,7 @@ struct ChartPiece {
 /// without fixed points: the antipodal map of the boundary of a disc gives the projective plane.
 struct Seam {
   int first_chart = 0, first_inequality = 0, second_chart = 0, second_inequality = 0;
-  /// First chart's coordinates -> second chart's. Called at vertices of the first part only (for curves: at the edges
-  /// that end there).
+  /// First chart's coordinates -> second chart's. Called at vertices of the first part only.
   CoordinateMap transition{};
 };
 
@@ -47,8 +46,9 @@ struct GlueOptions {
   /// transitions (around a corner of three charts, say) are found; without, the transitions are believed.
   std::vector<CoordinateMap> embeddings{};
   int embedding_dim = 0;
-  /// How far the two sides of a seam may be apart, in units of the longest edge of the two parts. Both follow one curve
-  /// up to O(L^2), L the edge length, so that the ratio tends to 0 with L.
+  /// How far the two sides of a seam may be apart, in units of the longest edge of the second piece and of the first
+  /// one's part, all in the second chart's coordinates. Both sides follow one curve up to O(L^2), L the edge length, so
+  /// that the ratio tends to 0 with L.
   double max_distance = 0.5;
 };
 
@@ -56,7 +56,7 @@ struct GlueOptions {
 struct SeamReport {
   std::size_t num_corners = 0;  ///< ends of arcs; for curves, the points that are glued
   std::size_t num_arcs = 0, num_loops = 0;
-  double worst_distance = 0;          ///< between points that were identified, in the second chart's coordinates
+  double worst_distance = 0;          ///< between the two sides, in the second chart's coordinates
   std::vector<double> worst_place{};  ///< where, in the second chart's coordinates; empty when nothing was glued
 };
 
