@@ -17,6 +17,7 @@ Quilt::Vertex Quilt::add_patch(const SimplicialMesh& mesh) {
   degree_.resize(patch_of_.size(), 0);
   parent_.resize(patch_of_.size());
   std::iota(parent_.begin() + first, parent_.end(), first);
+  around_.reserve(around_.size() + mesh.num_simplices() * (dim_ == 1 ? 1 : 2));
   for (std::size_t s = 0; s < mesh.num_simplices(); ++s) {
     const std::uint32_t number = static_cast<std::uint32_t>(num_simplices());
     for (std::size_t i = 0; i < corners; ++i) {
