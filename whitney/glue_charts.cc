@@ -574,6 +574,7 @@ class Gluer {
       number[v] = static_cast<std::uint32_t>(chart_of_point.values.size());
       const std::vector<double> point = place(v);
       mesh.points.insert(mesh.points.end(), point.begin(), point.end());
+      result.chart_points.insert(result.chart_points.end(), quilt_.point(v).begin(), quilt_.point(v).end());
       chart_of_point.values.push_back(quilt_.patch_of(v));
     }
     for (std::size_t s = 0; s < quilt_.num_simplices(); ++s) {

@@ -66,6 +66,7 @@ struct GluedMesh {
   /// coordinates; cell_data "chart": the chart of a simplex. Points come in the order of the charts, first those of the
   /// pieces (also such as no simplex uses), then the points inserted.
   SimplicialMesh mesh;
+  std::vector<double> chart_points;  ///< num_points x d: every point in the coordinates of its own chart
   std::vector<std::vector<std::uint32_t>> vertex_of;  ///< of chart c: vertex of the piece -> point of `mesh`
   std::vector<SeamReport> seams;
 };

@@ -17,9 +17,6 @@
 #include <string>
 #include <vector>
 
-// CLN, below GiNaC, keeps 26 bytes for the life of every program that is linked with it.
-extern "C" const char* __lsan_default_suppressions() { return "leak:libcln"; }
-
 namespace whitney {
 namespace {
 
