@@ -11,6 +11,7 @@
 namespace whitney {
 
 class TraceResult;
+struct BoundarySimplices;
 
 /// Lists of indices, one list per cell, stored one after the other.
 struct Incidence {
@@ -26,8 +27,8 @@ struct Incidence {
 /// The simplices of the triangulation that carry the cells of one dimension.
 struct CarrierSimplices {
   std::vector<std::uint32_t> base;  ///< index of the base vertex among CellComplex::vertex_coordinates
-  std::vector<std::uint16_t>
-      parts;  ///< num_cells x d: the part (0..m) that each coordinate 0..d-1 is in; m the dimension of the simplex
+  /// num_cells x d: the part (0..m) that each coordinate 0..d-1 is in; m the dimension of the simplex.
+  std::vector<std::uint16_t> parts;
 };
 
 /// The piecewise-linear isomanifold as a complex of convex polytopes, with its Hasse diagram.
@@ -37,6 +38,10 @@ struct CarrierSimplices {
 /// complex is a strongly regular CW complex, and without a boundary when the trace ran to its end. Cells of each
 /// dimension are in the canonical order of their simplices.
 ///
+/// With inequalities, cells are cut off where one of them vanishes, and the cuts are cells too: a j-cell with the set I
+/// of inequalities is the part with g >= 0 of the (k+|I|+j)-simplex in which f and g_I vanish. Such cells make the
+/// strata: the interior (I empty) and the pieces of the boundary. Cells of each dimension come set by set.
+///
 /// Where f vanishes at lattice vertices, cells are those of f = (eps, .., eps^k) for an infinitely small eps: the
 /// combinatorics are those of a manifold, while the points of several 0-cells may coincide.
 struct CellComplex {
@@ -45,12 +50,19 @@ struct CellComplex {
   std::vector<Incidence> facets;    ///< facets[j], 0 <= j <= n: the (j-1)-faces of every j-cell; empty lists for j = 0
   std::vector<Incidence> cofacets;  ///< cofacets[j]: the (j+1)-cells around every j-cell; empty lists for j = n
   std::vector<double> points;       ///< num_cells(0) x d: the 0-cells
-  std::vector<CarrierSimplices> simplices;       ///< simplices[j]: the (k+j)-simplex of every j-cell
+  std::vector<CarrierSimplices> simplices;  ///< simplices[j]: the (k+|I|+j)-simplex of every j-cell
+  /// The sets of inequalities that vanish on cells, increasing numbers as in Domain; the first is empty.
+  std::vector<std::vector<int>> inequality_sets{{}};
+  /// set_begin[j][s] .. set_begin[j][s+1]: the j-cells with inequality_sets[s]; one entry more than there are sets.
+  std::vector<std::vector<std::uint32_t>> set_begin;
+  int num_given = 0;  ///< inequalities below this number are the caller's, the others are sides of the box
   std::vector<std::int32_t> vertex_coordinates;  ///< lattice vertices that base indices refer to, num x d
   std::size_t num_dropped = 0;  ///< cells that a stopped trace left incomplete, or that bound no n-cell
 
   std::size_t num_cells(int dim) const { return facets[dim].size(); }
-  /// The (k+j)-simplex of the triangulation that carries cell i of dimension j.
+  /// The index in inequality_sets of the set that belongs to cell i of dimension j.
+  std::size_t set_of(int j, std::size_t i) const;
+  /// The (k+|I|+j)-simplex of the triangulation that carries cell i of dimension j.
   coxeter::Simplex simplex(int j, std::size_t i) const;
 };
 
@@ -64,17 +76,20 @@ struct CrossedSimplices {
   std::span<const std::uint8_t> parts;
   std::span<const std::uint16_t> wide_parts;
   std::span<const double> points;  ///< num_simplices x d
-  bool whole = true;               ///< all simplices that the manifold crosses are there
+  /// Those of the boundary, with 0-cells cut out by inequalities, in the order of TraceResult::boundary.
+  std::span<const BoundarySimplices> boundary{};
+  int num_given = 0;  ///< see CellComplex
+  bool whole = true;  ///< all simplices that the manifold crosses are there
 };
 
 /// Builds the cell complex of crossed simplices: every coface of a simplex that is hit is hit, so the (j+1)-cells are
-/// the cofacets of the j-cells.
+/// the cofacets of the j-cells (and, with inequalities, a (sigma, I) is a face of (sigma, I - i) for every i in I).
 ///
 /// When they are not the whole, cells of which a face is missing are left out, then those that are
 /// faces of no n-cell. Throws InvalidInput when there are more than 2^32 - 2 cells or incidences of one dimension.
 CellComplex cell_complex(const CrossedSimplices& crossed);
 
-/// That of a trace. Cut by its box, it is not whole.
+/// That of a trace.
 CellComplex cell_complex(const TraceResult& trace);
 
 }  // namespace whitney

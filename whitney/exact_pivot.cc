@@ -47,15 +47,14 @@ class ExactSystem {
   const Integer& vertex(int r) const { return entries_[r * width_ + width_ - 1]; }
   const Integer& determinant() const { return determinant_; }
 
- private:
-  Integer& at(int r, int c) { return entries_[r * width_ + c]; }
-
+  /// The exponent of the last bit set of x; the largest int for 0.
   static int lowest_exponent(double x) {
     if (x == 0) return std::numeric_limits<int>::max();
     int exponent;
     auto mantissa = static_cast<std::int64_t>(std::ldexp(std::frexp(x, &exponent), 53));
     return exponent - 53 + __builtin_ctzll(static_cast<std::uint64_t>(mantissa));
   }
+  /// x / 2^lowest, an integer for lowest <= lowest_exponent(x).
   static Integer scaled(double x, int lowest) {
     if (x == 0) return 0;
     int exponent;
@@ -64,6 +63,9 @@ class ExactSystem {
     if (shift < 0) return Integer(static_cast<long>(mantissa >> -shift));  // exact: those bits are zero
     return Integer(static_cast<long>(mantissa)) << shift;
   }
+
+ private:
+  Integer& at(int r, int c) { return entries_[r * width_ + c]; }
 
   void solve() {
     Integer previous = 1;
@@ -152,6 +154,20 @@ int exactly_leaving(std::span<const double* const> columns, const double* w) {
   if (leaving >= 0) return leaving;
   const ExactSystem full(columns, ExactSystem::RightSide::kInverseAndVertex, w);
   return smallest_ratio(full, size, size);
+}
+
+bool exactly_below(std::span<const double* const> columns, std::span<const double> component, int position) {
+  const int size = static_cast<int>(columns.size());
+  const ExactSystem system(columns, ExactSystem::RightSide::kInverse, nullptr);
+  int lowest = std::numeric_limits<int>::max();
+  for (double value : component) lowest = std::min(lowest, ExactSystem::lowest_exponent(value));
+  // The interpolant at the point minus the target, a polynomial in eps: sum_l eps^(p_l) sum_r g(v_r) M_rl - eps^(p).
+  for (int l = 0; l <= position; ++l) {
+    Integer coefficient = 0;
+    for (int r = 0; r < size; ++r) coefficient += ExactSystem::scaled(component[r], lowest) * system.inverse(r, l);
+    if (coefficient != 0) return sign(coefficient) != sign(system.determinant());
+  }
+  return true;
 }
 
 std::vector<double> exact_weights(std::span<const double* const> columns) {

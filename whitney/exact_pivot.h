@@ -22,6 +22,11 @@ bool exactly_hit(std::span<const double* const> columns);
 /// the other hit k-face comes out.
 int exactly_leaving(std::span<const double* const> columns, const double* w);
 
+/// For a simplex that is hit and one more component, g(v_0), .., g(v_k): whether its interpolant is below its own
+/// target at the point. `position` of the components come before it in the order of the eps (its target is
+/// eps^(position+1), and those of the components from `position` on move up by one).
+bool exactly_below(std::span<const double* const> columns, std::span<const double> component, int position);
+
 /// The barycentric coordinates at which the interpolant vanishes (eps = 0), correctly rounded up to one unit or so;
 /// k + 1 of them, >= 0 for a simplex that is hit.
 std::vector<double> exact_weights(std::span<const double* const> columns);

@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -31,8 +32,12 @@ VectorXd low_discrepancy(std::size_t index, int dim) {
 
 class Search {
  public:
-  Search(const Function& f, const Box& box, const FindSeedsOptions& options)
-      : f_(f), options_(options), d_(f.ambient_dim()), k_(f.codim()) {
+  /// `domain` may be null; what is outside it is not found, except that inequalities in `vanishing` are not asked.
+  Search(const Function& f, const Box& box, const FindSeedsOptions& options, const Domain* domain,
+         const std::vector<int>& vanishing)
+      : f_(f), options_(options), domain_(domain), d_(f.ambient_dim()), k_(f.codim()) {
+    if (domain != nullptr) slack_.resize(domain->num_inequalities(), 0.0);
+    for (int j : vanishing) slack_[j] = std::numeric_limits<double>::infinity();
     lower_ = Eigen::Map<const VectorXd>(box.lower.data(), d_);
     upper_ = Eigen::Map<const VectorXd>(box.upper.data(), d_);
     diagonal_ = (upper_ - lower_).norm();
@@ -46,7 +51,7 @@ class Search {
       ++found_.num_starts;
       const std::optional<VectorXd> point = project(start);
       if (point) accept(*point);
-      if (i >= options_.num_critical) continue;
+      if (i >= options_.num_critical || k_ == d_) continue;
       ++found_.num_starts;
       const std::optional<VectorXd> critical = critical_point(point ? *point : start);
       if (critical) accept(*critical);
@@ -60,6 +65,10 @@ class Search {
     f_.evaluate({x.data(), std::size_t(d_)}, {f.data(), std::size_t(k_)});
     ++found_.evaluations;
     return f.allFinite();
+  }
+  bool inside(const VectorXd& x) const {
+    if (domain_ != nullptr) return domain_->contains({x.data(), std::size_t(d_)}, slack_);
+    return ((x - lower_).array() >= 0).all() && ((upper_ - x).array() >= 0).all();
   }
   bool jacobian(const VectorXd& x, MatrixXd& J) const {
     RowMajor rows(k_, d_);
@@ -101,7 +110,7 @@ class Search {
       const double length = step.norm();
       if (!std::isfinite(length)) return std::nullopt;
       if (length < 1e-11 * diagonal_) {
-        if (((x - lower_).array() < 0).any() || ((upper_ - x).array() < 0).any()) return std::nullopt;
+        if (!inside(x)) return std::nullopt;
         if (vanishing || last_pivot < 1e-6 || (i > 0 && length > 0.1 * previous)) {
           ++found_.num_singular;
           return std::nullopt;
@@ -159,8 +168,10 @@ class Search {
     found_.points.insert(found_.points.end(), x.data(), x.data() + d_);
   }
 
-  const Function& f_;
+  const Function f_;
   const FindSeedsOptions& options_;
+  const Domain* domain_;
+  std::vector<double> slack_;
   int d_, k_;
   VectorXd lower_, upper_, direction_;
   double diagonal_ = 0;
@@ -173,7 +184,38 @@ FoundSeeds find_seeds(const Function& f, const Box& box, const FindSeedsOptions&
   const auto d = static_cast<std::size_t>(f.ambient_dim());
   if (box.lower.size() != d || box.upper.size() != d)
     throw InvalidInput("find_seeds: the box must have " + std::to_string(d) + " lower and upper bounds");
-  return Search(f, box, options).run();
+  return Search(f, box, options, nullptr, {}).run();
+}
+
+FoundSeeds find_seeds(const Function& f, const Domain& domain, const FindSeedsOptions& options) {
+  if (!domain.box()) throw InvalidInput("find_seeds: the domain has no box");
+  const Box& box = *domain.box();
+  const int d = f.ambient_dim(), n = d - f.codim();
+  FoundSeeds found = Search(f, box, options, &domain, {}).run();
+  FindSeedsOptions fewer = options;
+  fewer.num_starts = (options.num_starts + 7) / 8;
+  fewer.num_critical = (options.num_critical + 7) / 8;
+  std::vector<std::vector<int>> sets{{}};
+  std::size_t searched = 0;
+  for (int size = 1; size <= n && searched < options.max_strata; ++size) {
+    std::vector<std::vector<int>> larger;
+    for (const std::vector<int>& set : sets)
+      for (int j = set.empty() ? 0 : set.back() + 1; j < domain.num_inequalities(); ++j) {
+        if (larger.size() >= options.max_strata || (size > 1 && domain.is_box_side(j))) break;
+        larger.push_back(set);
+        larger.back().push_back(j);
+      }
+    sets = std::move(larger);
+    for (const std::vector<int>& set : sets) {
+      if (++searched > options.max_strata) break;
+      const FoundSeeds more = Search(domain.with_equations(f, set), box, fewer, &domain, set).run();
+      found.points.insert(found.points.end(), more.points.begin(), more.points.end());
+      found.num_starts += more.num_starts;
+      found.num_converged += more.num_converged;
+      found.evaluations += more.evaluations;
+    }
+  }
+  return found;
 }
 
 }  // namespace whitney

@@ -13,6 +13,7 @@ struct FindSeedsOptions {
   std::size_t num_starts = 400;    ///< start points, a low-discrepancy sequence in the box
   std::size_t num_critical = 100;  ///< how many of them also look for a critical point of a linear function
   int max_iterations = 60;         ///< Newton steps from each
+  std::size_t max_strata = 64;  ///< with inequalities: how many strata are searched, each from 1/8 of the start points
 };
 
 struct FoundSeeds {
@@ -33,5 +34,11 @@ struct FoundSeeds {
 ///
 /// Throws InvalidInput when the box does not fit f. Points where f is not finite are passed over.
 FoundSeeds find_seeds(const Function& f, const Box& box, const FindSeedsOptions& options = {});
+
+/// Looks for points on f = 0 in a domain that has a box, one on every component of that part of f = 0: besides the
+/// search above, the same on the strata where some of the inequalities vanish (in the largest dimensions first, up to
+/// max_strata of them), since a component of a compact manifold with corners has the least value of g.x on one of them.
+/// Throws InvalidInput when the domain does not fit f or has no box.
+FoundSeeds find_seeds(const Function& f, const Domain& domain, const FindSeedsOptions& options = {});
 
 }  // namespace whitney

@@ -14,7 +14,8 @@ namespace whitney {
 template <class F>
 concept PointwiseFunction = std::invocable<const F&, std::span<const double>, std::span<double>>;
 
-/// A map f: R^d -> R^k whose zero set is an isomanifold of dimension n = d - k.
+/// A map f: R^d -> R^k: equations, whose zero set is an isomanifold of dimension n = d - k, or k inequalities f >= 0
+/// (then k may exceed d).
 ///
 /// A value: cheap to copy, immutable, safe to call from several threads. Evaluation is by batches, because a tracer
 /// asks for many points at a time and an interpreter or a SIMD kernel wants them so. The value at a point does not
@@ -51,7 +52,7 @@ class Function {
   std::shared_ptr<const Model> model_;
 };
 
-/// The Function of any callable `f(std::span<const double> x, std::span<double> values)`, d >= 1, 1 <= k <= d.
+/// The Function of any callable `f(std::span<const double> x, std::span<double> values)`, d >= 1, k >= 1.
 /// Derivatives are taken by differences. Throws InvalidInput on impossible dimensions.
 Function make_function(int ambient_dim, int codim, std::function<void(std::span<const double>, std::span<double>)> f);
 

@@ -15,6 +15,14 @@ struct NamedArray {
   std::vector<double> values;  ///< count x components
 };
 
+/// A stratum of a manifold with boundary, as a subcomplex of a mesh of the whole: a piece of the boundary, an edge, a
+/// corner.
+struct MeshStratum {
+  int stratum = 0;                       ///< its number, see Strata
+  int dim = 0;                           ///< of its simplices, below that of the mesh
+  std::vector<std::uint32_t> simplices;  ///< num_simplices x (dim+1), indices of points of the mesh
+};
+
 /// A pure simplicial complex of dimension `dim` in R^d: vertices and top simplices.
 /// The order of the vertices of a simplex is its orientation.
 struct SimplicialMesh {
@@ -24,6 +32,7 @@ struct SimplicialMesh {
   std::vector<std::uint32_t> simplices;  ///< num_simplices x (n+1)
   std::vector<NamedArray> point_data{};  ///< one value per point
   std::vector<NamedArray> cell_data{};   ///< one value per simplex
+  std::vector<MeshStratum> strata{};     ///< of lower dimension; formats that cannot hold them leave them out
 
   std::size_t num_points() const { return ambient_dim > 0 ? points.size() / ambient_dim : 0; }
   std::size_t num_simplices() const { return simplices.size() / (dim + 1); }

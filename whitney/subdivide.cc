@@ -2,6 +2,9 @@
 #include <whitney/subdivide.h>
 
 #include <algorithm>
+#include <functional>
+#include <numeric>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -9,7 +12,37 @@
 
 namespace whitney {
 
-SimplicialMesh barycentric_subdivision(const CellComplex& complex) {
+namespace {
+
+/// Appends the simplices of cells of one dimension; `ends`, unless null, gets the size of the list after each cell.
+using SimplicesOf = std::function<void(int dim, std::span<const std::uint32_t> cells, std::vector<std::uint32_t>& out,
+                                       std::vector<std::size_t>* ends)>;
+
+/// `ends`: where the simplices of every n-cell end.
+void add_strata(const Strata& strata, const SimplicesOf& simplices_of, std::span<const std::size_t> ends,
+                SimplicialMesh& mesh) {
+  NamedArray stratum{"stratum", 1, {}};
+  for (std::size_t i = 0; i < ends.size(); ++i)
+    stratum.values.resize(ends[i] / (mesh.dim + 1), strata.stratum_of[mesh.dim][i]);
+  mesh.cell_data.push_back(std::move(stratum));
+  for (std::size_t s = 0; s < strata.strata.size(); ++s) {
+    if (strata.strata[s].dim == mesh.dim) continue;
+    MeshStratum& piece = mesh.strata.emplace_back();
+    piece.stratum = static_cast<int>(s);
+    piece.dim = strata.strata[s].dim;
+    simplices_of(piece.dim, strata.strata[s].cells, piece.simplices, nullptr);
+  }
+}
+
+std::vector<std::uint32_t> all_cells(const CellComplex& complex) {
+  std::vector<std::uint32_t> cells(complex.num_cells(complex.intrinsic_dim));
+  std::iota(cells.begin(), cells.end(), std::uint32_t{0});
+  return cells;
+}
+
+}  // namespace
+
+SimplicialMesh barycentric_subdivision(const CellComplex& complex, const Strata* strata) {
   const int d = complex.ambient_dim, n = complex.intrinsic_dim;
   std::vector<std::size_t> first(n + 2, 0);  // index of the first vertex that stands for a j-cell
   for (int j = 0; j <= n; ++j) first[j + 1] = first[j] + complex.num_cells(j);
@@ -43,20 +76,36 @@ SimplicialMesh barycentric_subdivision(const CellComplex& complex) {
   std::size_t total = 0;
   for (std::size_t count : chains) total += count;
   mesh.simplices.reserve(total * (n + 1));
-  std::vector<std::uint32_t> chain(n + 1);
-  auto descend = [&](auto& self, int j, std::uint32_t cell) -> void {
+  std::vector<std::uint32_t> chain;
+  auto descend = [&](auto& self, int j, std::uint32_t cell, std::vector<std::uint32_t>& out) -> void {
     chain[j] = static_cast<std::uint32_t>(first[j] + cell);
     if (j == 0) {
-      mesh.simplices.insert(mesh.simplices.end(), chain.begin(), chain.end());
+      out.insert(out.end(), chain.begin(), chain.end());
       return;
     }
-    for (std::uint32_t f : complex.facets[j][cell]) self(self, j - 1, f);
+    for (std::uint32_t f : complex.facets[j][cell]) self(self, j - 1, f, out);
   };
-  for (std::uint32_t i = 0; i < complex.num_cells(n); ++i) descend(descend, n, i);
+  const auto simplices_of = [&](int dim, std::span<const std::uint32_t> cells, std::vector<std::uint32_t>& out,
+                                std::vector<std::size_t>* ends) {
+    chain.resize(dim + 1);
+    for (std::uint32_t i : cells) {
+      descend(descend, dim, i, out);
+      if (ends != nullptr) ends->push_back(out.size());
+    }
+  };
+  std::vector<std::size_t> ends;
+  simplices_of(n, all_cells(complex), mesh.simplices, strata != nullptr ? &ends : nullptr);
+  if (strata != nullptr) {
+    NamedArray stratum{"stratum", 1, {}};
+    for (const auto& of_dim : strata->stratum_of)
+      stratum.values.insert(stratum.values.end(), of_dim.begin(), of_dim.end());
+    mesh.point_data.push_back(std::move(stratum));
+    add_strata(*strata, simplices_of, ends, mesh);
+  }
   return mesh;
 }
 
-SimplicialMesh pulled_subdivision(const CellComplex& complex) {
+SimplicialMesh pulled_subdivision(const CellComplex& complex, const Strata* strata) {
   const int n = complex.intrinsic_dim;
   std::vector<std::vector<std::uint32_t>> least(n + 1);  // least vertex of every cell
   for (int j = 0; j <= n; ++j) {
@@ -72,19 +121,69 @@ SimplicialMesh pulled_subdivision(const CellComplex& complex) {
     }
   }
   SimplicialMesh mesh{complex.ambient_dim, n, complex.points, {}};
-  std::vector<std::uint32_t> simplex(n + 1);
+  std::vector<std::uint32_t> simplex;
   // A facet contains the least vertex of the cell exactly when that is its own least vertex.
-  auto pull = [&](auto& self, int j, std::uint32_t cell) -> void {
-    simplex[n - j] = least[j][cell];
+  auto pull = [&](auto& self, int j, std::uint32_t cell, std::vector<std::uint32_t>& out) -> void {
+    simplex[simplex.size() - 1 - j] = least[j][cell];
     if (j == 0) {
-      mesh.simplices.insert(mesh.simplices.end(), simplex.begin(), simplex.end());
+      out.insert(out.end(), simplex.begin(), simplex.end());
       return;
     }
     for (std::uint32_t f : complex.facets[j][cell])
-      if (least[j - 1][f] != least[j][cell]) self(self, j - 1, f);
+      if (least[j - 1][f] != least[j][cell]) self(self, j - 1, f, out);
   };
-  for (std::uint32_t i = 0; i < complex.num_cells(n); ++i) pull(pull, n, i);
+  const auto simplices_of = [&](int dim, std::span<const std::uint32_t> cells, std::vector<std::uint32_t>& out,
+                                std::vector<std::size_t>* ends) {
+    simplex.resize(dim + 1);
+    for (std::uint32_t i : cells) {
+      pull(pull, dim, i, out);
+      if (ends != nullptr) ends->push_back(out.size());
+    }
+  };
+  std::vector<std::size_t> ends;
+  simplices_of(n, all_cells(complex), mesh.simplices, strata != nullptr ? &ends : nullptr);
+  if (strata != nullptr) {
+    const auto& of_points = strata->stratum_of[0];
+    mesh.point_data.push_back({"stratum", 1, {of_points.begin(), of_points.end()}});
+    add_strata(*strata, simplices_of, ends, mesh);
+  }
   return mesh;
+}
+
+SimplicialMesh stratum_mesh(const SimplicialMesh& mesh, int stratum) {
+  SimplicialMesh out;
+  out.ambient_dim = mesh.ambient_dim;
+  const auto piece = std::find_if(mesh.strata.begin(), mesh.strata.end(),
+                                  [&](const MeshStratum& candidate) { return candidate.stratum == stratum; });
+  if (piece != mesh.strata.end()) {
+    out.dim = piece->dim;
+    out.simplices = piece->simplices;
+  } else {
+    out.dim = mesh.dim;
+    for (const NamedArray& array : mesh.cell_data) {
+      if (array.name != "stratum") continue;
+      for (std::size_t i = 0; i < array.values.size(); ++i)
+        if (array.values[i] == stratum)
+          out.simplices.insert(out.simplices.end(), mesh.simplices.begin() + i * (mesh.dim + 1),
+                               mesh.simplices.begin() + (i + 1) * (mesh.dim + 1));
+    }
+  }
+  if (out.simplices.empty()) throw InvalidInput("stratum_mesh: there is no stratum " + std::to_string(stratum));
+  std::vector<std::uint32_t> used = out.simplices;
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  for (std::uint32_t& v : out.simplices)
+    v = static_cast<std::uint32_t>(std::lower_bound(used.begin(), used.end(), v) - used.begin());
+  const std::size_t d = mesh.ambient_dim;
+  for (std::uint32_t v : used)
+    out.points.insert(out.points.end(), mesh.points.begin() + v * d, mesh.points.begin() + (v + 1) * d);
+  for (const NamedArray& array : mesh.point_data) {
+    NamedArray& copy = out.point_data.emplace_back(array.name, array.components, std::vector<double>());
+    for (std::uint32_t v : used)
+      copy.values.insert(copy.values.end(), array.values.begin() + std::size_t{v} * array.components,
+                         array.values.begin() + (std::size_t{v} + 1) * array.components);
+  }
+  return out;
 }
 
 PolygonMesh polygon_mesh(const CellComplex& complex) {

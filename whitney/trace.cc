@@ -17,6 +17,7 @@
 #include <whitney/barycentric_kernel.h>
 #include <whitney/exact_pivot.h>
 #include <whitney/lattice_order.h>
+#include <whitney/trace_boundary.h>
 #include <whitney/trace_seed.h>
 
 namespace whitney {
@@ -24,6 +25,12 @@ namespace whitney {
 using coxeter::GrowingArray;
 using coxeter::SimplexTable;
 using coxeter::VertexTable;
+
+std::size_t TraceResult::num_points() const {
+  std::size_t sum = num_simplices();
+  for (const BoundarySimplices& stratum : boundary) sum += stratum.size();
+  return sum;
+}
 
 const char* to_string(StopReason reason) {
   switch (reason) {
@@ -45,10 +52,13 @@ namespace {
 
 constexpr int kLanes = BarycentricKernel::kLanes;
 constexpr std::size_t kBatch = 64;  // simplices whose cofacets are looked at together, so that f is asked in batches
-// Neighbours in the queue have cofacets in common. A batch is every kStride-th simplex of a stretch of the queue, so that
-// most cofacets are known to be crossed before their other side is looked at.
+// Neighbours in the queue have cofacets in common. A batch is every kStride-th simplex of a stretch of the queue, so
+// that most cofacets are known to be crossed before their other side is looked at.
 constexpr std::size_t kStride = 16;
 constexpr std::size_t kAhead = 32;  // simplices looked up together, so that memory is waited for once
+
+// How many d-simplices around a seed are searched for a boundary vertex when none holds one of the interior.
+constexpr std::size_t kCornerSeedSimplices = 200;
 
 // A split of a part with s elements into two non-empty ordered halves, 2^s - 2 of them, needs a flag; s <= n + 1.
 constexpr int kMaxIntrinsicDim = 16;
@@ -92,8 +102,11 @@ class SubsetForms {
 /// as a set of bits over the part's elements in increasing order, less 1.
 ///
 /// Two forms of the same steps: ShortPartition where it fits, part lists otherwise.
+///
+/// With a domain, simplices that meet f = 0 outside it are entered like the others, but their cofacets are not crossed:
+/// those that are marked were crossed from inside, and are the edges that leave the domain.
 template <class Shape>
-class Tracer {
+class Tracer : private LatticeValues {
   using Index = typename Shape::Index;
   static constexpr int kDim = Shape::kDim, kCodim = Shape::kCodim;
   static constexpr bool kShort = Shape::kShort;
@@ -105,10 +118,16 @@ class Tracer {
         options_(options),
         d_{f.ambient_dim()},
         k_{f.codim()},
-        vertices_(d_, k_),
+        domain_(f.ambient_dim(), options.inequalities, options.box),
+        num_given_(domain_.num_given()),
+        mask_words_(domain_.num_words()),
+        vertices_(d_, static_cast<int>(k_ + num_given_ + mask_words_)),
         simplices_(d_, flag_words(d_ - k_)),
         kernel_(k_),
-        columns_(k_ + 1) {}
+        columns_(k_ + 1),
+        mask_of_all_(mask_words_, 0) {
+    if (!domain_.empty()) boundary_.emplace(domain_, static_cast<LatticeValues&>(*this), int{k_});
+  }
 
   TraceResult run(std::span<const double> seed_points);
 
@@ -142,7 +161,23 @@ class Tracer {
 
   static std::size_t flag_words(int intrinsic_dim) { return ((std::size_t{2} << intrinsic_dim) - 2 + 63) / 64; }
 
+  // f, the given inequalities, the mask.
   double* value(std::uint32_t vertex) { return vertices_.values(vertex); }
+  std::uint64_t* mask_at(std::uint32_t vertex) {
+    return reinterpret_cast<std::uint64_t*>(value(vertex) + k_ + num_given_);
+  }
+
+  // LatticeValues.
+  std::uint32_t vertex(std::span<const std::int32_t> z) override;
+  void values(std::uint32_t vertex, double* out) const override;
+  const std::uint64_t* mask(std::uint32_t vertex) const override { return const_cast<Tracer*>(this)->mask_at(vertex); }
+  const std::uint64_t* mask_of_all() const override { return mask_of_all_.data(); }
+  bool inside(const Pending& simplex);
+  coxeter::Simplex simplex_of(std::uint32_t id);
+  coxeter::Simplex cofacet_of(std::uint32_t id, std::uint32_t number);
+  void add_exits();
+  bool grow_boundary();
+  void list_boundary(TraceResult& out);
   // Room for the k + 1 vertices of a simplex that joins the queue.
   std::uint32_t* enqueue(std::uint32_t id) {
     std::uint32_t* entry = next_queue_.extend(queue_stride());
@@ -169,7 +204,10 @@ class Tracer {
   coxeter::PartLists part_lists(std::size_t slot) {
     return {&elements_[slot * (d_ + 1)], &starts_[slot * (k_ + 2)], &numbers_[slot * (k_ + 2)]};
   }
-  OracleError not_finite(int component, double value, const double* x) const;
+  OracleError not_finite(const std::string& what, double value, const double* x) const;
+  bool box_holds(const double* x) const;
+  bool seed_value(const std::int32_t* z, double* values);
+  bool crossing_inside(const Crossing& crossing);
   bool should_stop();
   double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
   TraceResult result();
@@ -185,16 +223,18 @@ class Tracer {
   const Size<kDim> d_;
   const Size<kCodim> k_;
 
-  VertexTable vertices_;  // with f, k values a vertex; meaningless where outside_
+  const Domain domain_;
+  const std::size_t num_given_, mask_words_;
+  VertexTable vertices_;  // with value(); meaningless where unreachable_
   std::size_t evaluated_ = 0;
-  GrowingArray<char> outside_;  // filled only when there is a box
+  GrowingArray<char> unreachable_;  // filled only when there is a box
   SimplexTable<Index, kDim> simplices_;
   GrowingArray<double> points_;  // d a simplex
   BarycentricKernel kernel_;
 
   GrowingArray<std::uint32_t> queue_, next_queue_;
   std::size_t evaluations_ = 0, exact_decisions_ = 0;
-  bool cut_by_box_ = false;
+  bool cut_by_undefined_ = false;
   StopReason stop_ = StopReason::kNone;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 
@@ -217,19 +257,24 @@ class Tracer {
   SubsetForms subset_forms_;
   std::vector<std::uint64_t> form_sums_;  // over the subsets of one part
   std::vector<std::uint32_t> bit_sums_;
-  std::vector<double> x_, f_values_, weights_, sums_, y_;
+  std::vector<double> x_, f_values_, g_values_, weights_, sums_, y_;
+
+  // The domain.
+  std::optional<BoundaryTrace> boundary_;
+  std::vector<std::uint64_t> mask_of_all_;
+  std::vector<std::uint32_t> outside_;      // simplices that meet f = 0 outside the domain
+  std::vector<std::uint64_t> exits_taken_;  // their cofacets that add_exits has seen, flag words each
 };
 
 template <class Shape>
-OracleError Tracer<Shape>::not_finite(int component, double value, const double* x) const {
+OracleError Tracer<Shape>::not_finite(const std::string& what, double value, const double* x) const {
   std::string at;
   char number[32];
   for (int c = 0; c < d_; ++c) {
     std::snprintf(number, sizeof number, "%s%.17g", c ? ", " : "", x[c]);
     at += number;
   }
-  return OracleError("component " + std::to_string(component + 1) + " of f is " +
-                     (std::isnan(value) ? "NaN" : "infinite") + " at (" + at + ")");
+  return OracleError(what + " is " + (std::isnan(value) ? "NaN" : "infinite") + " at (" + at + ")");
 }
 
 template <class Shape>
@@ -238,34 +283,169 @@ void Tracer<Shape>::evaluate_new_vertices() {
   if (known == size) return;
   const std::size_t count = size - known;
   x_.resize(count * d_);
-  std::size_t asked = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    double* x = &x_[asked * d_];
+  for (std::size_t i = 0; i < count; ++i)
     triangulation_.cartesian({vertices_.coordinates(static_cast<std::uint32_t>(known + i)), std::size_t(d_)},
-                             {x, std::size_t(d_)});
-    bool inside = true;
-    if (options_.box)
-      for (int c = 0; c < d_; ++c) inside = inside && x[c] >= options_.box->lower[c] && x[c] <= options_.box->upper[c];
-    if (options_.box) outside_.push_back(!inside);
-    asked += inside;
-  }
-  f_values_.resize(asked * k_);
-  f_.evaluate({x_.data(), asked * d_}, f_values_);
-  evaluations_ += asked;
+                             {&x_[i * d_], std::size_t(d_)});
+  f_values_.resize(count * k_);
+  f_.evaluate(x_, f_values_);
+  g_values_.resize(count * num_given_);
+  if (num_given_ > 0) domain_.given()->evaluate(x_, g_values_);
+  evaluations_ += count;
   evaluated_ = size;
-  std::size_t read = 0;
+  const bool boxed = domain_.box().has_value();
   for (std::size_t i = 0; i < count; ++i) {
-    double* values = value(static_cast<std::uint32_t>(known + i));
-    if (options_.box && outside_[known + i]) {
-      std::fill_n(values, int{k_}, 0.0);
-      continue;
+    const auto vertex = static_cast<std::uint32_t>(known + i);
+    const double *x = &x_[i * d_], *g = g_values_.data() + i * num_given_;
+    double* values = value(vertex);
+    if (!domain_.empty()) {
+      for (std::size_t j = 0; j < num_given_; ++j) {
+        if (!std::isfinite(g[j])) throw not_finite("inequality " + std::to_string(j), g[j], x);
+        values[k_ + j] = g[j];
+      }
+      std::uint64_t* mask = mask_at(vertex);
+      domain_.set_mask(x, g, mask);
+      for (std::size_t word = 0; word < mask_words_; ++word) mask_of_all_[word] |= mask[word];
     }
+    if (boxed) unreachable_.push_back(false);
     for (int r = 0; r < k_; ++r) {
-      const double value = f_values_[read * k_ + r];
-      if (!std::isfinite(value)) throw not_finite(r, value, &x_[read * d_]);
-      values[r] = value;
+      const double component = f_values_[i * k_ + r];
+      values[r] = component;
+      if (std::isfinite(component)) continue;
+      if (!boxed || box_holds(x)) throw not_finite("component " + std::to_string(r + 1) + " of f", component, x);
+      unreachable_[vertex] = true;
     }
-    ++read;
+  }
+}
+
+template <class Shape>
+bool Tracer<Shape>::box_holds(const double* x) const {
+  for (int c = 0; c < d_; ++c)
+    if (!(x[c] >= domain_.box()->lower[c] && x[c] <= domain_.box()->upper[c])) return false;
+  return true;
+}
+
+template <class Shape>
+std::uint32_t Tracer<Shape>::vertex(std::span<const std::int32_t> z) {
+  const std::uint32_t vertex = vertices_.intern(z.data(), vertices_.form_of(z.data()));
+  evaluate_new_vertices();
+  return !unreachable_.empty() && unreachable_[vertex] ? kUnreachable : vertex;
+}
+
+template <class Shape>
+void Tracer<Shape>::values(std::uint32_t vertex, double* out) const {
+  const double* known = const_cast<Tracer*>(this)->value(vertex);
+  for (std::size_t j = 0; j < num_given_; ++j) out[j] = -known[k_ + j];
+  if (domain_.box()) {
+    std::vector<double> x(d_);
+    triangulation_.cartesian({vertices_.coordinates(vertex), std::size_t(d_)}, x);
+    for (int j = domain_.num_given(); j < domain_.num_inequalities(); ++j) out[j] = -domain_.box_value(j, x.data());
+  }
+  std::copy_n(known, int{k_}, out + domain_.num_inequalities());
+}
+
+// Whether a simplex meets f = 0 inside the domain.
+template <class Shape>
+bool Tracer<Shape>::inside(const Pending& simplex) {
+  bool all_inside = true;
+  for (std::size_t word = 0; word < mask_words_; ++word) {
+    std::uint64_t some = 0, all = ~std::uint64_t{0};
+    for (int q = 0; q <= k_; ++q) {
+      const std::uint64_t mask = mask_at(simplex.vertices[q])[word];
+      some |= mask;
+      all &= mask;
+    }
+    if (all != 0) return false;
+    all_inside = all_inside && some == 0;
+  }
+  return all_inside || boundary_->inside(std::span<const std::uint32_t>(simplex.vertices, std::size_t(k_ + 1)));
+}
+
+template <class Shape>
+coxeter::Simplex Tracer<Shape>::simplex_of(std::uint32_t id) {
+  std::vector<std::uint16_t> parts(simplices_.parts(id), simplices_.parts(id) + d_);
+  parts.push_back(static_cast<std::uint16_t>(k_));
+  return {coxeter::LatticeVertex(std::span(vertices_.coordinates(simplices_.base(id)), std::size_t(d_))),
+          coxeter::OrderedPartition::from_part_indices(parts)};
+}
+
+// The cofacet of a simplex that has this number.
+template <class Shape>
+coxeter::Simplex Tracer<Shape>::cofacet_of(std::uint32_t id, std::uint32_t number) {
+  const Index* parts = simplices_.parts(id);
+  int q = 0;
+  bool new_base = false;
+  std::vector<char> special(d_, 0);  // the half that takes the number q, or goes before the base
+  if constexpr (kShort) {
+    coxeter::ShortPartition<kDim, kCodim> partition(parts, d_, k_);
+    partition.cofacets();
+    const auto split = partition.split(static_cast<int>(number));
+    q = split.part;
+    new_base = split.new_base;
+    for (int c = 0; c < d_; ++c) special[c] = split.special >> c & 1;
+  } else {
+    const coxeter::PartLists lists = part_lists(0);
+    coxeter::list_parts(parts, d_, k_, lists);
+    while (q < k_ && lists.numbers[q + 1] <= number) ++q;
+    const std::uint32_t split = number - lists.numbers[q] + 1;
+    const int size = lists.size(q);
+    new_base = q == k_ && (split >> (size - 1) & 1);
+    for (int i = 0; i < size; ++i)
+      if (lists.part(q)[i] < d_) special[lists.part(q)[i]] = (split >> i & 1) != new_base;
+  }
+  coxeter::LatticeVertex base(std::span(vertices_.coordinates(simplices_.base(id)), std::size_t(d_)));
+  std::vector<std::uint16_t> of_cofacet(d_ + 1);
+  for (int c = 0; c < d_; ++c) {
+    of_cofacet[c] =
+        static_cast<std::uint16_t>(special[c] ? (new_base ? 0 : q) : parts[c] + (new_base || parts[c] >= q));
+    if (new_base && special[c]) --base[c];
+  }
+  of_cofacet[d_] = static_cast<std::uint16_t>(k_ + 1);
+  return {std::move(base), coxeter::OrderedPartition::from_part_indices(of_cofacet)};
+}
+
+// Hands the edges that leave the domain to the boundary, each once.
+template <class Shape>
+void Tracer<Shape>::add_exits() {
+  const std::size_t words = flag_words(d_ - k_);
+  exits_taken_.resize(outside_.size() * words, 0);
+  for (std::size_t i = 0; i < outside_.size(); ++i) {
+    std::optional<coxeter::Simplex> outside;
+    for (std::size_t word = 0; word < words; ++word) {
+      std::uint64_t& taken = exits_taken_[i * words + word];
+      std::uint64_t rest = simplices_.flags(outside_[i])[word] & ~taken;
+      taken |= rest;
+      for (; rest != 0; rest &= rest - 1) {
+        if (!outside) outside = simplex_of(outside_[i]);
+        boundary_->add_exit(cofacet_of(outside_[i], static_cast<std::uint32_t>(64 * word) + std::countr_zero(rest)),
+                            *outside);
+      }
+    }
+  }
+}
+
+// The boundary of what has been found, and whatever else of the manifold it leads to. False at a limit.
+template <class Shape>
+bool Tracer<Shape>::grow_boundary() {
+  constexpr std::size_t kSteps = 256;
+  for (;;) {
+    add_exits();
+    bool more = true;
+    while (more) {
+      if (should_stop()) {
+        queue_.clear();
+        report_waiting(0);
+        return false;
+      }
+      more = boundary_->grow(kSteps, [&](const coxeter::Simplex& sigma) {
+        Crossing crossing;
+        crossing.base.assign(sigma.base().begin(), sigma.base().end());
+        const auto parts = sigma.partition().part_indices();
+        crossing.parts.assign(parts.data(), parts.data() + d_);
+        start_from(crossing);
+      });
+    }
+    if (next_queue_.empty()) return true;
+    if (!grow()) return false;
   }
 }
 
@@ -285,8 +465,15 @@ void Tracer<Shape>::list_cofacets_short(const Pending& simplex, std::size_t slot
     const std::uint64_t form =
         vertices_.form(simplex.vertices[split.new_base ? 0 : split.part]) + (split.new_base ? 0 - sum : sum);
     vertices_.prefetch(form);
-    *candidate = {form, 0, 0, split.special, static_cast<std::uint32_t>(number), 0,
-                  static_cast<std::uint16_t>(split.part), static_cast<std::uint8_t>(slot), split.new_base};
+    *candidate = {form,
+                  0,
+                  0,
+                  split.special,
+                  static_cast<std::uint32_t>(number),
+                  0,
+                  static_cast<std::uint16_t>(split.part),
+                  static_cast<std::uint8_t>(slot),
+                  split.new_base};
   }
   candidates_.truncate(size + (candidate - begin));
 }
@@ -409,8 +596,8 @@ template <class Shape>
 void Tracer<Shape>::prepare(const Pending& simplex, const Candidate& candidate, Step& step) {
   Index* out = SimplexTable<Index>::parts_of(step.key);
   if constexpr (kShort) {
-    const auto over = partitions_[candidate.slot].step({candidate.part, candidate.special, candidate.new_base},
-                                                       candidate.leaving);
+    const auto over =
+        partitions_[candidate.slot].step({candidate.part, candidate.special, candidate.new_base}, candidate.leaving);
     std::memcpy(out, &over.parts, sizeof over.parts);
     step.inserted = over.inserted;
     step.removed = over.removed;
@@ -441,7 +628,8 @@ void Tracer<Shape>::take(const Pending& simplex, const Candidate& candidate, con
     for (int i = 0; i <= k_; ++i) {
       const std::uint32_t before = v[i - 1], here = v[i], after = v[i + 1];
       const int j = i + (i >= step.removed);
-      const std::uint32_t old = i >= step.removed ? (j > step.inserted ? here : after) : (j > step.inserted ? before : here);
+      const std::uint32_t old =
+          i >= step.removed ? (j > step.inserted ? here : after) : (j > step.inserted ? before : here);
       out[i] = j == step.inserted ? candidate.vertex : old;
     }
   }
@@ -489,6 +677,10 @@ void Tracer<Shape>::process(std::size_t first, std::size_t count, std::size_t st
   for (std::size_t i = 0; i < count; ++i) {
     candidate_begin_[i] = candidates_.size();
     batch_[i] = pending(first + i * stride);
+    if (boundary_ && !inside(batch_[i])) {
+      outside_.push_back(batch_[i].id);
+      continue;
+    }
     if constexpr (kShort)
       list_cofacets_short(batch_[i], i);
     else
@@ -498,7 +690,7 @@ void Tracer<Shape>::process(std::size_t first, std::size_t count, std::size_t st
   look_up_vertices();
   evaluate_new_vertices();
   points_.extend(simplices_.size() * d_ - points_.size());
-  const bool boxed = !outside_.empty();
+  const bool boxed = !unreachable_.empty();
 
   for (std::size_t group = 0; group < count; group += kLanes) {
     const int lanes = static_cast<int>(std::min<std::size_t>(kLanes, count - group));
@@ -511,11 +703,11 @@ void Tracer<Shape>::process(std::size_t first, std::size_t count, std::size_t st
       const std::uint64_t* const flags = simplices_.flags(simplex[lane].id);
       for (std::size_t j = candidate_begin_[group + lane]; j < candidate_begin_[group + lane + 1]; ++j) {
         const Candidate& candidate = candidates_[j];
-        const bool outside = boxed && outside_[candidate.vertex];
-        cut_by_box_ |= outside;
+        const bool unreachable = boxed && unreachable_[candidate.vertex];
+        cut_by_undefined_ |= unreachable;
         open[num_open] = static_cast<std::uint32_t>(j);
         // Another simplex of this batch may have crossed the same cofacet from its other side.
-        num_open += !outside & !(flags[candidate.flag / 64] >> (candidate.flag % 64) & 1);
+        num_open += !unreachable & !(flags[candidate.flag / 64] >> (candidate.flag % 64) & 1);
       }
     }
     open_begin_[lanes] = num_open;
@@ -561,11 +753,11 @@ bool Tracer<Shape>::start_from(const Crossing& crossing) {
 template <class Shape>
 bool Tracer<Shape>::should_stop() {
   const double now = seconds();
-  if (simplices_.size() >= options_.max_simplices)
+  if (simplices_.size() - outside_.size() + (boundary_ ? boundary_->size() : 0) >= options_.max_simplices)
     stop_ = StopReason::kMaxSimplices;
   else if (now > options_.time_limit)
     stop_ = StopReason::kTimeLimit;
-  else if (options_.progress && !options_.progress({simplices_.size(), evaluations_, now}))
+  else if (options_.progress && !options_.progress({simplices_.size() - outside_.size(), evaluations_, now}))
     stop_ = StopReason::kCancelled;
   return stop_ != StopReason::kNone;
 }
@@ -603,7 +795,50 @@ void Tracer<Shape>::report_waiting(std::size_t first) {
   for (std::size_t i = 0; i < queue_.size() / queue_stride(); ++i) {
     const Pending simplex = pending(i);
     find_leaving(&simplex, 1);
+    if (boundary_ && !inside(simplex)) outside_.push_back(simplex.id);
   }
+}
+
+// f at a vertex near a seed point. False where it has no value, or far outside the box.
+template <class Shape>
+bool Tracer<Shape>::seed_value(const std::int32_t* z, double* values) {
+  std::vector<double> x(d_);
+  triangulation_.cartesian({z, std::size_t(d_)}, x);
+  bool in_box = true;
+  if (const std::optional<Box>& box = domain_.box()) {
+    const double edge = triangulation_.edge_length();
+    in_box = box_holds(x.data());
+    for (int c = 0; c < d_; ++c)
+      if (!(x[c] >= box->lower[c] - edge && x[c] <= box->upper[c] + edge)) return false;
+  }
+  f_.evaluate(x, {values, std::size_t(k_)});
+  for (int r = 0; r < k_; ++r) {
+    if (std::isfinite(values[r])) continue;
+    if (!in_box) return false;
+    throw not_finite("component " + std::to_string(r + 1) + " of f", values[r], x.data());
+  }
+  return true;
+}
+
+// Whether a simplex found near a seed point meets f = 0 inside the domain. Its vertices are not entered: they may turn
+// out to be no part of the result.
+template <class Shape>
+bool Tracer<Shape>::crossing_inside(const Crossing& crossing) {
+  const int m = domain_.num_inequalities();
+  std::vector<double> x(d_), rows;
+  std::vector<std::int32_t> z = crossing.base;
+  for (int q = 0; q <= k_; ++q) {
+    triangulation_.cartesian(z, x);
+    const std::vector<double> g = domain_.values(x);
+    for (int j = 0; j < m; ++j) {
+      if (!std::isfinite(g[j])) throw not_finite(domain_.name(j), g[j], x.data());
+      rows.push_back(-g[j]);
+    }
+    rows.resize(rows.size() + k_);
+    f_.evaluate(x, {&rows[rows.size() - k_], std::size_t(k_)});
+    for (int c = 0; c < d_; ++c) z[c] += crossing.parts[c] == q;
+  }
+  return boundary_->inside(std::span<const double>(rows));
 }
 
 template <class Shape>
@@ -623,26 +858,27 @@ TraceResult Tracer<Shape>::run(std::span<const double> seed_points) {
   sums_.resize(k_ + 1);
   y_.resize(d_);
 
-  std::vector<double> x(d_);
-  SeedSearch search(triangulation_, k_, [&](const std::int32_t* z, double* values) {
-    triangulation_.cartesian({z, std::size_t(d_)}, x);
-    if (options_.box)
-      for (int c = 0; c < d_; ++c)
-        if (!(x[c] >= options_.box->lower[c] && x[c] <= options_.box->upper[c])) return false;
-    f_.evaluate(x, {values, std::size_t(k_)});
-    for (int r = 0; r < k_; ++r) {
-      if (!std::isfinite(values[r])) throw not_finite(r, values[r], x.data());
-    }
-    return true;
-  });
+  SeedSearch search(triangulation_, k_, [&](const std::int32_t* z, double* values) { return seed_value(z, values); });
+  if (boundary_) search.accept_only([&](const Crossing& crossing) { return crossing_inside(crossing); });
 
   TraceResult out;
   for (std::size_t i = 0; i + d_ <= seed_points.size() && stop_ == StopReason::kNone; i += d_) {
     SeedReport report;
     Crossing crossing;
-    if (search.search(seed_points.subspan(i, d_), options_.max_seed_simplices, crossing, report.reason)) {
-      report.outcome = start_from(crossing) ? SeedReport::Outcome::kUsed : SeedReport::Outcome::kMerged;
-      grow();
+    const std::span<const double> seed = seed_points.subspan(i, d_);
+    bool started = false, found = search.search(seed, options_.max_seed_simplices, crossing, report.reason);
+    if (found) {
+      started = start_from(crossing);
+    } else if (boundary_) {
+      const std::size_t known = boundary_->size();
+      found = search.search_full(seed, std::min(options_.max_seed_simplices, kCornerSeedSimplices),
+                                 [&](const coxeter::Simplex& full) { return boundary_->find_in(full); });
+      started = boundary_->size() > known;
+    }
+    if (found) {
+      report.outcome = started ? SeedReport::Outcome::kUsed : SeedReport::Outcome::kMerged;
+      report.reason.clear();
+      if (grow() && boundary_) grow_boundary();
     }
     out.seeds.push_back(std::move(report));
   }
@@ -663,7 +899,18 @@ TraceResult Tracer<Shape>::result() {
   out.codim_ = k_;
   out.evaluations = evaluations_;
   out.exact_decisions = exact_decisions_;
-  out.stop_reason = stop_ == StopReason::kNone && cut_by_box_ ? StopReason::kBox : stop_;
+  out.domain = domain_;
+  out.stop_reason = stop_;
+  if (boundary_) {
+    out.exact_decisions += boundary_->exact_decisions();
+    cut_by_undefined_ = cut_by_undefined_ || boundary_->cut_by_undefined();
+    bool cut = cut_by_undefined_;
+    for (const auto& [inequalities, stratum] : boundary_->strata())
+      for (int j : inequalities) cut = cut || domain_.is_box_side(j);
+    if (cut && stop_ == StopReason::kNone) out.stop_reason = StopReason::kBox;
+    list_boundary(out);
+  }
+  out.whole = stop_ == StopReason::kNone && !cut_by_undefined_;
   queue_.release();
   next_queue_.release();
   simplices_.release_index();
@@ -680,12 +927,27 @@ TraceResult Tracer<Shape>::result() {
   double* values = out.vertex_values_.extend(std::size_t{num_vertices} * k_);
   for (std::uint32_t i = 0; i < num_vertices; ++i)
     std::copy_n(value(vertex_order[i]), int{k_}, values + std::size_t{i} * k_);
+  for (BoundarySimplices& stratum : out.boundary)
+    for (std::uint32_t& base : stratum.base) base = rank[base];
   vertices_.release();
 
-  const auto count = static_cast<std::uint32_t>(simplices_.size());
-  const std::vector<std::uint32_t> order = canonical_order(
-      rank.size(), count, d_, [&](std::uint32_t i) { return rank[simplices_.base(i)]; },
-      [&](std::uint32_t i) { return simplices_.parts(i); });
+  // The simplices inside, in the order in which they were found.
+  const auto found = static_cast<std::uint32_t>(simplices_.size());
+  std::vector<std::uint32_t> inside(found);
+  for (std::uint32_t id : outside_) inside[id] = 1;
+  std::uint32_t count = 0;
+  for (std::uint32_t id = 0; id < found; ++id)
+    if (inside[id] == 0) inside[count++] = id;
+  if (count < found)
+    for (std::uint32_t i = 0; i < count; ++i)
+      std::copy_n(&points_[std::size_t{inside[i]} * d_], int{d_}, &points_[std::size_t{i} * d_]);
+  points_.truncate(std::size_t{count} * d_);
+
+  std::vector<std::uint32_t> order = canonical_order(
+      rank.size(), count, d_, [&](std::uint32_t i) { return rank[simplices_.base(inside[i])]; },
+      [&](std::uint32_t i) { return simplices_.parts(inside[i]); });
+  permute_rows(points_.data(), d_, order);
+  for (std::uint32_t& i : order) i = inside[i];
   std::uint32_t* base = out.simplex_base_.extend(count);
   Index* parts;
   if constexpr (sizeof(Index) == 1)
@@ -696,15 +958,45 @@ TraceResult Tracer<Shape>::result() {
     base[i] = rank[simplices_.base(order[i])];
     std::copy_n(simplices_.parts(order[i]), d_, parts + std::size_t{i} * d_);
   }
-  permute_rows(points_.data(), d_, order);
   out.points_ = std::move(points_);
   return out;
+}
+
+// The strata of the boundary, in canonical order but for the numbers of the vertices.
+template <class Shape>
+void Tracer<Shape>::list_boundary(TraceResult& out) {
+  for (const auto& [inequalities, stratum] : boundary_->strata()) {
+    BoundarySimplices listed;
+    listed.inequalities = inequalities;
+    std::vector<coxeter::Simplex> simplices(stratum.points.begin(), stratum.points.end());
+    std::sort(simplices.begin(), simplices.end());
+    for (const coxeter::Simplex& sigma : simplices) {
+      listed.base.push_back(vertex(sigma.base()));
+      const auto parts = sigma.partition().part_indices();
+      listed.parts.insert(listed.parts.end(), parts.data(), parts.data() + d_);
+      const std::vector<double> weights = boundary_->weights(sigma, inequalities);
+      double total = 0, after = 0;
+      for (double weight : weights) total += weight;
+      for (int c = 0; c < d_; ++c) y_[c] = sigma.base()[c];
+      for (int q = sigma.dim(); q > 0; --q) {
+        after += weights[q];
+        for (std::uint16_t c : sigma.partition().part(q - 1)) y_[c] += after / total;
+      }
+      const Eigen::VectorXd x =
+          triangulation_.offset() + triangulation_.linear() * Eigen::Map<const Eigen::VectorXd>(y_.data(), d_);
+      listed.points.insert(listed.points.end(), x.data(), x.data() + d_);
+    }
+    out.boundary.push_back(std::move(listed));
+  }
+  std::sort(out.boundary.begin(), out.boundary.end(), [](const BoundarySimplices& a, const BoundarySimplices& b) {
+    return std::pair(a.inequalities.size(), a.inequalities) < std::pair(b.inequalities.size(), b.inequalities);
+  });
 }
 
 namespace {
 
 void check_arguments(const Function& f, const coxeter::Triangulation& triangulation,
-                     std::span<const double> seed_points, const TraceOptions& options) {
+                     std::span<const double> seed_points) {
   const int d = f.ambient_dim(), k = f.codim();
   if (triangulation.ambient_dim() != d)
     throw InvalidInput("trace: f is defined on R^" + std::to_string(d) + ", the triangulation is one of R^" +
@@ -722,19 +1014,13 @@ void check_arguments(const Function& f, const coxeter::Triangulation& triangulat
     if (!std::isfinite(seed_points[i]))
       throw InvalidInput("trace: coordinate " + std::to_string(i % d + 1) + " of seed point " +
                          std::to_string(i / d + 1) + " is not finite");
-  if (!options.box) return;
-  if (options.box->lower.size() != std::size_t(d) || options.box->upper.size() != std::size_t(d))
-    throw InvalidInput("trace: the box must have " + std::to_string(d) + " lower and upper bounds");
-  for (int c = 0; c < d; ++c)
-    if (!(options.box->lower[c] < options.box->upper[c]))
-      throw InvalidInput("trace: the box is empty along coordinate " + std::to_string(c + 1));
 }
 
 }  // namespace
 
 TraceResult trace(const Function& f, const coxeter::Triangulation& triangulation, std::span<const double> seed_points,
                   const TraceOptions& options) {
-  check_arguments(f, triangulation, seed_points, options);
+  check_arguments(f, triangulation, seed_points);
   auto run = [&]<class Shape>() { return Tracer<Shape>(f, triangulation, options).run(seed_points); };
   const int d = f.ambient_dim(), k = f.codim();
   if (k >= TraceResult::kFirstWideCodim) return run.template operator()<Shape<std::uint16_t, false>>();

@@ -12,24 +12,25 @@
 
 #include <coxeter/growing_array.h>
 #include <coxeter/triangulation.h>
+#include <whitney/domain.h>
 #include <whitney/function.h>
 
 namespace whitney {
 
-/// An axis-parallel box in R^d.
-struct Box {
-  std::vector<double> lower, upper;  ///< d numbers each (lengths), lower[i] < upper[i]
-};
-
 struct TraceProgress {
-  std::size_t simplices = 0;    ///< k-simplices found so far
+  std::size_t simplices = 0;    ///< simplices found so far
   std::size_t evaluations = 0;  ///< evaluations of f so far
   double seconds = 0;           ///< since the trace began
 };
 
 struct TraceOptions {
-  /// f is evaluated at no vertex outside the box, and no simplex with such a vertex is part of the result.
-  std::optional<Box> box;
+  /// g: R^d -> R^m: only the part of the manifold in g >= 0 is traced, with its boundary, edges and corners. g is
+  /// interpolated as f is. Both are evaluated at the vertices of all simplices that the boundary passes through, so up
+  /// to one edge length outside.
+  std::optional<Function> inequalities{};
+  /// The same as 2d further inequalities, see Domain. Where f has no finite value at a vertex outside the box, the
+  /// simplices around that vertex are left out instead.
+  std::optional<Box> box{};
   /// The trace stops when it has found this many k-simplices. About 150 bytes each.
   std::size_t max_simplices = 50'000'000;
   /// The trace stops after this many seconds.
@@ -43,7 +44,7 @@ struct TraceOptions {
 /// Why a trace ended.
 enum class StopReason {
   kNone,          ///< nothing was left to do: every cofacet of every simplex found has been crossed
-  kBox,           ///< likewise, but the manifold reached the box and was cut there
+  kBox,           ///< likewise, but the manifold reached the box and was cut there: see TraceResult::boundary
   kMaxSimplices,  ///< stopped by TraceOptions::max_simplices
   kTimeLimit,     ///< stopped by TraceOptions::time_limit
   kCancelled      ///< stopped by TraceOptions::progress
@@ -63,8 +64,20 @@ struct SeedReport {
   std::string reason;
 };
 
-/// The k-simplices of a triangulation that meet the zero set of the piecewise-linear interpolant of f, and the points
-/// where they do.
+/// The simplices that carry the vertices of one stratum, or of several with the same inequalities: where the
+/// interpolants of f and of g_I vanish and all others are positive.
+struct BoundarySimplices {
+  std::vector<int> inequalities;    ///< I, increasing, not empty; numbers as in Domain
+  std::vector<std::uint32_t> base;  ///< per simplex: index of its base vertex among TraceResult::vertex_coordinates()
+  /// num_simplices x d: the part of the ordered partition that each coordinate is in, 0..k+|I|.
+  std::vector<std::uint16_t> parts;
+  std::vector<double> points;  ///< num_simplices x d
+
+  std::size_t size() const { return base.size(); }
+};
+
+/// The k-simplices of a triangulation that meet the zero set of the piecewise-linear interpolant of f inside the
+/// domain, and the points where they do; with inequalities, also the simplices of the boundary.
 ///
 /// Sorted: vertices lexicographically by lattice coordinates; simplices by base vertex, then by the part numbers of
 /// their coordinates. So the result depends on f, the triangulation and the components found, not on the order of
@@ -106,6 +119,14 @@ class TraceResult {
     return {points_.data() + i * ambient_dim_, std::size_t(ambient_dim_)};
   }
 
+  Domain domain;  ///< of the options
+  /// By number of inequalities, then lexicographically; simplices in canonical order. Empty where the manifold does not
+  /// reach the boundary of the domain.
+  std::vector<BoundarySimplices> boundary;
+  /// All stratum points found: num_simplices() and those of the boundary.
+  std::size_t num_points() const;
+  bool whole = true;  ///< nothing is missing: no limit stopped the trace, and f had a value wherever it was asked for
+
   std::vector<SeedReport> seeds;     ///< one for each seed point given
   std::size_t evaluations = 0;       ///< evaluations of f by the trace: exactly num_vertices()
   std::size_t seed_evaluations = 0;  ///< those of the search around the seeds, apart
@@ -135,8 +156,13 @@ class TraceResult {
 /// target is (eps, .., eps^k) for an infinitely small eps (see exact_pivot.h), and no decision depends on rounding
 /// errors of the tracer.
 ///
-/// Throws InvalidInput on sizes that do not fit or values that are not finite in the arguments, OracleError when f
-/// returns NaN or an infinite value, LatticeOverflow when an unbounded manifold runs out of lattice coordinates.
+/// With inequalities, the manifold is the part of that zero set in which the interpolants of g are >= 0, and a lattice
+/// vertex with g = 0 counts as inside: see BoundaryTrace. Each connected component of it that a seed leads to is found
+/// whole, however the boundary cuts the simplices.
+///
+/// Throws InvalidInput on sizes that do not fit or values that are not finite in the arguments, OracleError when f or g
+/// returns NaN or an infinite value (but see TraceOptions::box), LatticeOverflow when an unbounded manifold runs out of
+/// lattice coordinates.
 TraceResult trace(const Function& f, const coxeter::Triangulation& triangulation, std::span<const double> seed_points,
                   const TraceOptions& options = {});
 

@@ -79,12 +79,12 @@ bool SeedSearch::hit_face(const FullSimplex& simplex, Crossing& found) {
   }
   // All k-faces, kLanes at a time, in lexicographic order of their vertices.
   constexpr int kLanes = BarycentricKernel::kLanes;
-  std::vector<int> next(codim_ + 1), face;
+  std::vector<int> next(codim_ + 1);
   std::vector<std::vector<int>> batch;
   std::vector<const double*> columns(codim_ + 1);
   std::iota(next.begin(), next.end(), 0);
   bool more = true;
-  while (more && face.empty()) {
+  while (more) {
     batch.clear();
     while (more && batch.size() < kLanes) {
       for (int q = 0; q <= codim_; ++q) kernel_.set_vertex(static_cast<int>(batch.size()), q, value(next[q]));
@@ -96,23 +96,29 @@ bool SeedSearch::hit_face(const FullSimplex& simplex, Crossing& found) {
       for (int j = i + 1; more && j <= codim_; ++j) next[j] = next[j - 1] + 1;
     }
     kernel_.factor();
-    for (int lane = 0; lane < static_cast<int>(batch.size()) && face.empty(); ++lane) {
+    for (int lane = 0; lane < static_cast<int>(batch.size()); ++lane) {
       double lowest = std::numeric_limits<double>::infinity();
       for (int q = 0; q <= codim_; ++q) lowest = std::min(lowest, kernel_.weight(lane, q));
       const double error = 2 * kernel_.weight_error(lane);
       for (int q = 0; q <= codim_; ++q) columns[q] = value(batch[lane][q]);
       // The weights of the kernel mean something for a simplex that is hit; for one equation only then.
       const bool decided = codim_ > 1 && kernel_.reliable(lane) && std::abs(lowest) > error;
-      if (decided ? lowest > 0 : exactly_hit(columns)) face = batch[lane];
+      if (!(decided ? lowest > 0 : exactly_hit(columns))) continue;
+      describe(simplex, batch[lane], found);
+      if (!accept_ || accept_(found)) return true;
+      any_rejected_ = true;
     }
   }
-  if (face.empty()) return false;
+  return false;
+}
+
+// The k-face of a d-simplex with these vertices.
+void SeedSearch::describe(const FullSimplex& simplex, const std::vector<int>& face, Crossing& found) const {
   found.base = simplex.base;
   for (int q = 0; q < face[0]; ++q) ++found.base[simplex.order[q]];
   found.parts.assign(dim_, codim_);
   for (int p = 0; p < codim_; ++p)
     for (int q = face[p]; q < face[p + 1]; ++q) found.parts[simplex.order[q]] = p;
-  return true;
 }
 
 bool SeedSearch::search(std::span<const double> x, std::size_t limit, Crossing& found, std::string& reason) {
@@ -149,7 +155,43 @@ bool SeedSearch::search(std::span<const double> x, std::size_t limit, Crossing& 
     y -= move;
   }
 
-  // The d-simplices around the seed, nearest barycentre first.
+  bool any_inside = false, is_found = false;
+  any_rejected_ = false;
+  for_each_around(start, limit - std::min(limit, examined), [&](const FullSimplex& simplex) {
+    ++examined;
+    if (!load(simplex)) return true;
+    any_inside = true;
+    is_found = hit_face(simplex, found);
+    return !is_found;
+  });
+  if (is_found) return true;
+  const std::string around = "none of the " + std::to_string(examined) + " simplices around it ";
+  if (!any_inside)
+    reason = "it lies outside the box";
+  else if (any_rejected_)
+    reason = around + "meets the zero set inside the domain of the inequalities and the box";
+  else
+    reason =
+        around + "meets the zero set: the point is far from the manifold, or the edge length is too large to see it";
+  return false;
+}
+
+bool SeedSearch::search_full(std::span<const double> x, std::size_t limit,
+                             const std::function<bool(const coxeter::Simplex&)>& found) {
+  bool is_found = false;
+  for_each_around(triangulation_.lattice_coordinates(x), limit, [&](const FullSimplex& simplex) {
+    if (!load(simplex)) return true;
+    std::vector<std::uint16_t> parts(dim_ + 1, static_cast<std::uint16_t>(dim_));
+    for (int q = 0; q < dim_; ++q) parts[simplex.order[q]] = static_cast<std::uint16_t>(q);
+    is_found = found({coxeter::LatticeVertex(simplex.base), coxeter::OrderedPartition::from_part_indices(parts)});
+    return !is_found;
+  });
+  return is_found;
+}
+
+// Visits the d-simplices around a point, given in lattice coordinates, nearest barycentre first, until visit is false.
+void SeedSearch::for_each_around(const Eigen::VectorXd& start, std::size_t limit,
+                                 const std::function<bool(const FullSimplex&)>& visit) {
   struct Entry {
     double distance;
     std::size_t number;  // breaks ties, so that the order is the same everywhere
@@ -172,22 +214,12 @@ bool SeedSearch::search(std::span<const double> x, std::size_t limit, Crossing& 
     queue.push({away.norm(), seen.size(), std::move(simplex)});
   };
   push(locate(start));
-  bool any_inside = false;
-  while (!queue.empty() && examined < limit) {
+  for (std::size_t visited = 0; !queue.empty() && visited < limit; ++visited) {
     const FullSimplex simplex = queue.top().simplex;
     queue.pop();
-    ++examined;
-    if (load(simplex)) {
-      any_inside = true;
-      if (hit_face(simplex, found)) return true;
-    }
+    if (!visit(simplex)) return;
     for (int q = 0; q <= dim_; ++q) push(neighbour(simplex, q));
   }
-  reason = any_inside ? "none of the " + std::to_string(examined) +
-                            " simplices around it meets the zero set: the point is far from the manifold, or the edge "
-                            "length is too large to see it"
-                      : "it lies outside the box";
-  return false;
 }
 
 }  // namespace whitney

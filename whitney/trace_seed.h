@@ -6,8 +6,10 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include <coxeter/simplex.h>
 #include <coxeter/triangulation.h>
 #include <coxeter/vertex_table.h>
 #include <whitney/barycentric_kernel.h>
@@ -33,9 +35,16 @@ class SeedSearch {
 
   SeedSearch(const coxeter::Triangulation& triangulation, int codim, Evaluate evaluate);
 
+  /// From now on only crossings for which this is true are found.
+  void accept_only(std::function<bool(const Crossing&)> accept) { accept_ = std::move(accept); }
+
   /// A crossing near x (d numbers, finite), or nothing and the reason in `reason`. Looks at `limit` d-simplices at
   /// most.
   bool search(std::span<const double> x, std::size_t limit, Crossing& found, std::string& reason);
+
+  /// The d-simplices around x with f at all vertices, nearest first, `limit` of them at most, until `found` is true.
+  bool search_full(std::span<const double> x, std::size_t limit,
+                   const std::function<bool(const coxeter::Simplex&)>& found);
 
   std::size_t evaluations() const { return evaluations_; }
 
@@ -50,11 +59,16 @@ class SeedSearch {
   FullSimplex neighbour(const FullSimplex& simplex, int opposite) const;
   bool load(const FullSimplex& simplex);
   bool hit_face(const FullSimplex& simplex, Crossing& found);
+  void describe(const FullSimplex& simplex, const std::vector<int>& face, Crossing& found) const;
   std::vector<double> barycentre(const FullSimplex& simplex) const;
+  void for_each_around(const Eigen::VectorXd& y, std::size_t limit,
+                       const std::function<bool(const FullSimplex&)>& visit);
 
   const coxeter::Triangulation& triangulation_;
   int dim_, codim_;
   Evaluate evaluate_;
+  std::function<bool(const Crossing&)> accept_;
+  bool any_rejected_ = false;
   coxeter::VertexTable vertices_;
   std::vector<double> values_;      // k a vertex
   std::vector<char> inside_;        // whether f may be asked there

@@ -70,9 +70,8 @@ TEST(Function, RejectsImpossibleDimensions) {
   const auto f = [](std::span<const double>, std::span<double>) {};
   EXPECT_THROW(make_function(0, 1, f), InvalidInput);
   EXPECT_THROW(make_function(3, 0, f), InvalidInput);
-  EXPECT_THROW(make_function(3, 4, f), InvalidInput);
   EXPECT_THROW(make_function(3, 1, nullptr), InvalidInput);
-  EXPECT_NO_THROW(make_function(3, 3, f));
+  EXPECT_NO_THROW(make_function(3, 4, f));  // inequalities may be many
 }
 
 }  // namespace

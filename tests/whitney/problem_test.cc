@@ -318,7 +318,10 @@ TEST(Problem, ErrorsNameFileKeyAndReason) {
   expect(with(R"("triangulation": {"edge_length": "-pi"})"), "triangulation.edge_length", "positive");
   expect(with(R"("triangulation": {"rng_seed": -1})"), "triangulation.rng_seed", "integer");
   expect(with(R"("triangulation": {"rng_seed": 1.5})"), "triangulation.rng_seed", "integer");
-  for (const char* key : {"inequalities", "points"}) {
+  expect(with(R"("inequalities": [])"), "inequalities", "empty");
+  expect(with(R"("inequalities": "x")"), "inequalities", "list");
+  expect(with(R"("inequalities": ["x", "x +"])"), "inequalities[1]", "position");
+  for (const char* key : {"points"}) {
     expect(with("\"" + std::string(key) + "\": {}"), key, "does not support");
     expect("{\"" + std::string(key) + "\": []}", key, "does not support");
   }

@@ -13,12 +13,13 @@
 namespace whitney::cli {
 
 /// Exit statuses of the program.
-enum ExitStatus { kDone = 0, kBadInput = 1, kStopped = 2, kNotAManifold = 3, kNotCertified = 3 };
+enum ExitStatus { kDone = 0, kBadInput = 1, kStopped = 2, kNotAManifold = 3, kNotCertified = 3, kSingular = 3 };
 
 struct TraceArguments {
   std::string problem;
   std::vector<std::string> outputs;
   std::string stats;
+  std::string strata;  // file name pattern
   std::optional<double> edge_length;
   std::string mesh = "pulled";
   std::size_t max_simplices = TraceOptions{}.max_simplices;

@@ -35,6 +35,9 @@ int main(int argc, char** argv) {
       ->take_all()
       ->expected(1);
   trace_command->add_option("--stats", trace.stats, "write counts, topology and timings to this JSON file");
+  trace_command->add_option("--strata", trace.strata,
+                            "write each stratum of a manifold with boundary to a file of its own: NAME.vtu gives "
+                            "NAME_0.vtu, NAME_1.vtu, .. (numbers as in the statistics)");
   trace_command
       ->add_option("--edge-length", trace.edge_length,
                    "longest edge of the ambient simplices, a length; overrides the problem file (default there: "

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <unistd.h>
 #include <whitney/cell_complex.h>
+#include <whitney/cli/boundary_report.h>
 #include <whitney/cli/commands.h>
 #include <whitney/cli/report.h>
 #include <whitney/cli/session.h>
+#include <whitney/cut_regularity.h>
 #include <whitney/find_seeds.h>
 #include <whitney/io/atomic_file.h>
 #include <whitney/io/problem.h>
 #include <whitney/io/statistics.h>
 #include <whitney/io/write_mesh.h>
 #include <whitney/orient_by_function.h>
+#include <whitney/strata.h>
 #include <whitney/subdivide.h>
 #include <whitney/topology.h>
 #include <whitney/trace.h>
@@ -65,6 +68,7 @@ int run_trace(const TraceArguments& arguments) {
     throw InvalidInput(arguments.problem + ": equations: " + std::to_string(k) + " equations in " + std::to_string(d) +
                        " variables leave no manifold of dimension 1 or more");
   check_outputs(arguments.outputs, arguments.stats, n, arguments.mesh == "cells");
+  check_outputs({}, arguments.strata, n, false);
   const std::optional<Box> box = box_of(problem);
   const double edge_length = edge_length_of(arguments, problem, box);
   const coxeter::Triangulation triangulation = make_triangulation(problem.triangulation, d, edge_length);
@@ -77,12 +81,13 @@ int run_trace(const TraceArguments& arguments) {
   const bool searched = seed_points.empty();
   if (searched) {
     if (!box) throw InvalidInput(arguments.problem + ": give seed_points, or a box in which they can be searched for");
-    found = find_seeds(function, *box);
+    found = find_seeds(function, Domain(d, problem.inequalities, box));
     seed_points = found.points;
   }
   statistics.seconds["seeds"] = watch.lap();
 
   TraceOptions options;
+  options.inequalities = problem.inequalities;
   options.box = box;
   options.max_simplices = arguments.max_simplices;
   options.time_limit = arguments.time_limit;
@@ -107,14 +112,19 @@ int run_trace(const TraceArguments& arguments) {
   const CellComplex complex = cell_complex(traced);
   statistics.seconds["complex"] = watch.lap();
 
+  const Strata strata = strata_of(complex);
+  const Strata* const labels = strata.has_boundary() || !arguments.strata.empty() ? &strata : nullptr;
   SimplicialMesh mesh =
-      arguments.mesh == "barycentric" ? barycentric_subdivision(complex) : pulled_subdivision(complex);
+      arguments.mesh == "barycentric" ? barycentric_subdivision(complex, labels) : pulled_subdivision(complex, labels);
   mesh = orient_by_function(std::move(mesh), function).mesh;
   const bool polygons = arguments.mesh == "cells";
   PolygonMesh cells;
   if (polygons) cells = polygon_mesh(complex);
   statistics.seconds["mesh"] = watch.lap();
 
+  if (labels != nullptr)
+    statistics.boundary =
+        boundary_statistics(strata, mesh, check_cuts(function, traced, triangulation.edge_length()), problem);
   statistics.topology = topology_of(mesh);
   if (polygons) {
     statistics.topology.f_vector.clear();
@@ -126,7 +136,13 @@ int run_trace(const TraceArguments& arguments) {
   write_options.projection = arguments.projection;
   write_options.variables = problem.variables;
   write_options.color_by = arguments.color_by;
-  const std::string failed = write_outputs(arguments.outputs, mesh, polygons ? &cells : nullptr, write_options);
+  std::string failed = write_outputs(arguments.outputs, mesh, polygons ? &cells : nullptr, write_options);
+  std::vector<std::string> written = arguments.outputs;
+  if (!arguments.strata.empty()) {
+    const auto files =
+        write_strata(arguments.strata, mesh, labels != nullptr ? strata.strata.size() : 0, write_options, failed);
+    written.insert(written.end(), files.begin(), files.end());
+  }
   statistics.seconds["write"] = watch.lap();
 
   statistics.ambient_dim = d;
@@ -137,7 +153,7 @@ int run_trace(const TraceArguments& arguments) {
     statistics.num_seeds_merged += seed.outcome == SeedReport::Outcome::kMerged;
     statistics.num_seeds_dropped += seed.outcome == SeedReport::Outcome::kDropped;
   }
-  for (int j = 0; j <= n; ++j) statistics.simplices_per_dim[k + j] = complex.num_cells(j);
+  for (int j = 0; j <= n; ++j) statistics.simplices_per_dim[k + j] = complex.set_begin[j][1];
   statistics.oracle_evaluations = traced.evaluations;
   statistics.seed_evaluations = traced.seed_evaluations + found.evaluations;
   statistics.distinct_vertices = traced.num_vertices();
@@ -157,14 +173,17 @@ int run_trace(const TraceArguments& arguments) {
     for (std::size_t i = 0; !searched && i < traced.seeds.size(); ++i)
       if (traced.seeds[i].outcome == SeedReport::Outcome::kDropped)
         std::cout << "seed point " << i + 1 << " dropped: " << traced.seeds[i].reason << "\n";
+    if (statistics.boundary) std::cout << describe(*statistics.boundary);
     if (traced.stop_reason == StopReason::kBox)
-      std::cout << "the manifold reaches the box and was cut there\n";
+      std::cout << "the manifold reaches the box and was cut there"
+                << (traced.whole ? "" : ", at whole simplices where f has no value outside it") << "\n";
     else if (traced.stop_reason != StopReason::kNone)
       std::cout << "stopped early (" << statistics.stop_reason << "): the mesh is part of the manifold\n";
-    for (const std::string& file : arguments.outputs) std::cout << "written: " << file << "\n";
+    for (const std::string& file : written) std::cout << "written: " << file << "\n";
     if (!arguments.stats.empty()) std::cout << "written: " << arguments.stats << "\n";
   }
   if (!failed.empty()) throw FileError(failed);
+  if (statistics.boundary && !statistics.boundary->singular_points.empty()) return kSingular;
   if (traced.stop_reason == StopReason::kNone || traced.stop_reason == StopReason::kBox) return kDone;
   return kStopped;
 }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
+#include <utility>
 
 namespace whitney::io {
 
@@ -43,8 +45,58 @@ std::string MeshBuilder::add_cell(std::span<const std::uint64_t> points) {
   return {};
 }
 
+// Takes out cells of a lower dimension than the others: strata that a mesh is labelled with. They must be faces of
+// cells.
+void MeshBuilder::drop_lower_cells(const std::string& path, bool simplices) {
+  std::size_t most = 0;
+  for (std::size_t c = 0; c < num_cells(); ++c) most = std::max(most, offsets_[c + 1] - offsets_[c]);
+  const std::size_t least = simplices ? most : std::min<std::size_t>(most, 3);
+  std::set<std::vector<std::uint32_t>> lower;
+  std::vector<std::size_t> offsets{0};
+  std::vector<std::uint32_t> corners, face;
+  for (std::size_t c = 0; c < num_cells(); ++c) {
+    const auto begin = corners_.begin() + static_cast<std::ptrdiff_t>(offsets_[c]),
+               end = corners_.begin() + static_cast<std::ptrdiff_t>(offsets_[c + 1]);
+    if (offsets_[c + 1] - offsets_[c] >= least) {
+      corners.insert(corners.end(), begin, end);
+      offsets.push_back(corners.size());
+    } else {
+      face.assign(begin, end);
+      std::sort(face.begin(), face.end());
+      lower.insert(face);
+    }
+  }
+  if (lower.empty()) return;
+  corners_ = std::move(corners);
+  offsets_ = std::move(offsets);
+  for (std::size_t c = 0; c < num_cells() && !lower.empty(); ++c) {
+    const std::span cell(corners_.data() + offsets_[c], corners_.data() + offsets_[c + 1]);
+    const std::size_t size = cell.size();
+    auto cross_out = [&] {
+      std::sort(face.begin(), face.end());
+      lower.erase(face);
+    };
+    for (std::size_t i = 0; i < size; ++i) {
+      face = {cell[i]};
+      cross_out();
+      // Sides of a polygon, or the faces of a simplex of at most four corners.
+      for (std::size_t j = i + 1; j < size; ++j) {
+        if (!simplices && size > 3 && j != i + 1 && (i != 0 || j != size - 1)) continue;
+        face = {cell[i], cell[j]};
+        cross_out();
+        for (std::size_t k = j + 1; simplices && k < size; ++k) {
+          face = {cell[i], cell[j], cell[k]};
+          cross_out();
+        }
+      }
+    }
+  }
+  if (!lower.empty()) fail_reading(path, "the file mixes cells of several dimensions");
+}
+
 SimplicialMesh MeshBuilder::finish(const std::string& path, bool simplices) {
   if (num_cells() == 0) fail_reading(path, "the file has no cells");
+  drop_lower_cells(path, simplices);
   std::size_t least = corners_.size(), most = 0;
   for (std::size_t c = 0; c < num_cells(); ++c) {
     least = std::min(least, offsets_[c + 1] - offsets_[c]);
@@ -55,7 +107,6 @@ SimplicialMesh MeshBuilder::finish(const std::string& path, bool simplices) {
     mesh_.simplices = std::move(corners_);
     return std::move(mesh_);
   }
-  if (least < 3) fail_reading(path, "the file mixes cells of several dimensions");
   mesh_.dim = 2;
   const auto d = static_cast<std::size_t>(mesh_.ambient_dim);
   for (std::size_t c = 0; c < num_cells(); ++c) {

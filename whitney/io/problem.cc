@@ -177,20 +177,29 @@ TriangulationSpec read_triangulation(const Entry& entry, std::size_t d) {
   return spec;
 }
 
-Function read_equations(const Entry& variables_entry, const std::vector<std::string>& variables, const Entry& entry) {
-  variables_entry.located([&] { check_variables(variables); });
-  const std::vector<Entry> elements = entry.list();
-  std::vector<std::string> equations;
-  for (const Entry& element : elements) equations.push_back(element.string());
+/// A list of expressions of the variables; `make` makes the function of the texts, and throws InvalidInput.
+template <class Make>
+Function read_map(const std::vector<std::string>& variables, const Entry& entry, Make make) {
+  const std::vector<std::string> texts = entry.strings();
   try {
-    return parse_equations(variables, equations);
+    return make(texts);
   } catch (const InvalidInput& error) {
     // Which one was it?
+    const std::vector<Entry> elements = entry.list();
     for (std::size_t i = 0; i < elements.size(); ++i) {
-      elements[i].located([&] { compile(variables, std::span(equations).subspan(i, 1)); });
+      elements[i].located([&] { compile(variables, std::span(texts).subspan(i, 1)); });
     }
     entry.fail(error.what());
   }
+}
+
+Function read_equations(const std::vector<std::string>& variables, const Entry& entry) {
+  return read_map(variables, entry, [&](const auto& texts) { return parse_equations(variables, texts); });
+}
+
+/// Any number of expressions, each >= 0.
+Function read_inequalities(const std::vector<std::string>& variables, const Entry& entry) {
+  return read_map(variables, entry, [&](const auto& texts) { return make_function(compile(variables, texts)); });
 }
 
 bool contains(const std::vector<std::string>& names, const std::string& name) {
@@ -246,18 +255,12 @@ Submanifold read_parametrization(const Entry& entry) {
   return entry.at("map").located([&] { return parametric_manifold(parameters, std::move(domain), map); });
 }
 
-/// Expressions of the variables, any number of them.
-CompiledMap read_map(const std::vector<std::string>& variables, const Entry& entry, std::size_t size = 0) {
-  const std::vector<std::string> expressions = entry.strings(size);
-  const std::vector<Entry> elements = entry.list(size);
-  for (std::size_t i = 0; i < elements.size(); ++i) {
-    elements[i].located([&] { compile(variables, std::span(expressions).subspan(i, 1)); });
-  }
-  return compile(variables, expressions);
-}
-
-CoordinateMap coordinate_map(CompiledMap map) {
-  return [values = std::move(map.values)](std::span<const double> x, std::span<double> y) { values.run_batch(x, y); };
+/// A map by its expressions; size 0: any number of them.
+CoordinateMap read_coordinate_map(const std::vector<std::string>& variables, const Entry& entry, std::size_t size = 0) {
+  entry.list(size);
+  const Function map =
+      read_map(variables, entry, [&](const auto& texts) { return make_function(compile(variables, texts)); });
+  return [map](std::span<const double> x, std::span<double> y) { map.evaluate(x, y); };
 }
 
 ChartAtlas read_projective(const Entry& entry) {
@@ -273,10 +276,10 @@ ChartAtlas read_projective(const Entry& entry) {
   return entry.located([&] { return projective_charts(variables, equations, options); });
 }
 
-Chart read_chart(const Entry& root, const std::vector<std::string>& variables, const Entry& entry, ChartAtlas& atlas) {
+Chart read_chart(const std::vector<std::string>& variables, const Entry& entry, ChartAtlas& atlas) {
   entry.expect_keys({"name", "equations", "inequalities", "box", "seed_points", "embedding"});
   const std::size_t d = variables.size();
-  Chart chart{entry.at("name").string(), read_equations(root.at("variables"), variables, entry.at("equations"))};
+  Chart chart{entry.at("name").string(), read_equations(variables, entry.at("equations"))};
   for (const Chart& other : atlas.charts) {
     if (other.name == chart.name) entry.at("name").fail("another chart has this name");
     if (other.function.codim() != chart.function.codim()) {
@@ -284,7 +287,7 @@ Chart read_chart(const Entry& root, const std::vector<std::string>& variables, c
           .fail("every chart must have as many equations as the first, " + std::to_string(other.function.codim()));
     }
   }
-  if (entry.has("inequalities")) chart.inequalities = make_function(read_map(variables, entry.at("inequalities")));
+  if (entry.has("inequalities")) chart.inequalities = read_inequalities(variables, entry.at("inequalities"));
   if (entry.has("box")) {
     for (const Entry& side : entry.at("box").list(d)) chart.box.push_back(read_side(side));
   }
@@ -296,11 +299,10 @@ Chart read_chart(const Entry& root, const std::vector<std::string>& variables, c
   }
   if (entry.has("embedding")) {
     const Entry embedding = entry.at("embedding");
-    CompiledMap map = read_map(variables, embedding, atlas.embedding_variables.size());
-    for (int i = static_cast<int>(atlas.embedding_variables.size()); i < map.values.num_outputs(); ++i) {
+    atlas.embeddings.push_back(read_coordinate_map(variables, embedding, atlas.embedding_variables.size()));
+    for (std::size_t i = atlas.embedding_variables.size(); i < embedding.list().size(); ++i) {
       atlas.embedding_variables.push_back("e" + std::to_string(i + 1));
     }
-    atlas.embeddings.push_back(coordinate_map(std::move(map)));
   }
   return chart;
 }
@@ -324,7 +326,7 @@ ChartAtlas read_charts(const Entry& root) {
   atlas.variables = root.at("variables").strings();
   root.at("variables").located([&] { check_variables(atlas.variables); });
   for (const Entry& entry : root.at("charts").list()) {
-    atlas.charts.push_back(read_chart(root, atlas.variables, entry, atlas));
+    atlas.charts.push_back(read_chart(atlas.variables, entry, atlas));
   }
   if (!root.has("seams")) return atlas;
   for (const Entry& entry : root.at("seams").list()) {
@@ -332,7 +334,7 @@ ChartAtlas read_charts(const Entry& root) {
     Seam seam;
     std::tie(seam.first_chart, seam.first_inequality) = read_seam_side(entry.at("from"), atlas);
     std::tie(seam.second_chart, seam.second_inequality) = read_seam_side(entry.at("to"), atlas);
-    seam.transition = coordinate_map(read_map(atlas.variables, entry.at("transition"), atlas.variables.size()));
+    seam.transition = read_coordinate_map(atlas.variables, entry.at("transition"), atlas.variables.size());
     atlas.seams.push_back(std::move(seam));
   }
   return atlas;
@@ -373,7 +375,7 @@ Problem parse_problem(std::string_view text, const std::string& name) {
                     "parametrization", "points", "charts", "seams", "projective"});
   if (root.has("charts") || root.has("projective")) return parse_charts(root);
   if (root.has("seams")) root.at("seams").fail("seams are between \"charts\"");
-  for (const char* key : {"inequalities", "points"}) {
+  for (const char* key : {"points"}) {
     if (root.has(key)) root.at(key).fail("this version does not support it yet");
   }
   if (root.has("equations") + root.has("named") + root.has("parametrization") != 1) {
@@ -390,7 +392,7 @@ Problem parse_problem(std::string_view text, const std::string& name) {
     entry.located([&] { check_variables(problem.variables); });
   }
   if (root.has("equations")) {
-    problem.function = read_equations(root.at("variables"), problem.variables, root.at("equations"));
+    problem.function = read_equations(problem.variables, root.at("equations"));
   } else if (root.has("named")) {
     problem.source = Problem::Source::kNamed;
     read_named(root.at("named"), problem);
@@ -405,6 +407,11 @@ Problem parse_problem(std::string_view text, const std::string& name) {
     root.at("variables").fail("the map has " + std::to_string(d) + " coordinates");
   }
 
+  if (root.has("inequalities")) {
+    const Entry entry = root.at("inequalities");
+    problem.inequalities = read_inequalities(problem.variables, entry);
+    problem.inequality_texts = entry.strings();
+  }
   if (root.has("box")) {
     problem.box.clear();
     for (const Entry& side : root.at("box").list(d)) problem.box.push_back(read_side(side));

@@ -35,8 +35,10 @@ struct Problem {
   enum class Source { kEquations, kNamed, kParametrization, kCharts };
 
   Source source = Source::kEquations;
-  std::vector<std::string> variables{};  ///< d names; where the file gives none: x1 .. xd
-  std::optional<Function> function{};    ///< f: R^d -> R^k; kEquations, and kNamed where f is known
+  std::vector<std::string> variables{};         ///< d names; where the file gives none: x1 .. xd
+  std::optional<Function> function{};           ///< f: R^d -> R^k; kEquations, and kNamed where f is known
+  std::optional<Function> inequalities{};       ///< g: R^d -> R^m, the domain is g >= 0
+  std::vector<std::string> inequality_texts{};  ///< m, as in the file
   /// The closest-point oracle: kParametrization, and kNamed where it is known. With the file's reach, if it gives one.
   std::optional<Submanifold> submanifold{};
   /// Charts to be traced one by one and glued: kCharts, from "charts" or "projective". Then it alone has equations,

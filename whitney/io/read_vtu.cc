@@ -144,7 +144,7 @@ SimplicialMesh read_vtu(const std::string& path, std::string_view bytes) {
   const auto offsets = vtu.values<std::int64_t>("Cells/offsets", "Int64");
   const auto types = vtu.values<std::uint8_t>("Cells/types", "UInt8");
   if (types.size() != offsets.size()) vtu.fail_at("Cells/types", "there are not as many types as cells");
-  const bool tetrahedra = !types.empty() && types.front() == 10;
+  const bool tetrahedra = std::find(types.begin(), types.end(), 10) != types.end();
   std::int64_t first = 0;
   std::vector<std::uint64_t> cell;
   for (std::size_t i = 0; i < offsets.size(); ++i) {
@@ -160,7 +160,7 @@ SimplicialMesh read_vtu(const std::string& path, std::string_view bytes) {
                       : types[i] == 7 ? n >= 3
                       : types[i] == 9 ? n == 4
                                       : types[i] == 10 && n == 4;
-    if (!fits || (types[i] == 10) != tetrahedra) {
+    if (!fits || (tetrahedra && (types[i] == 7 || types[i] == 9))) {
       vtu.fail_at("Cells/types",
                   "cell " + std::to_string(i) +
                       " is not a simplex or polygon, has a wrong number of points, or differs in dimension");

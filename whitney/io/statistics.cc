@@ -29,6 +29,23 @@ Json certificate_json(const CertificateStatistics& c) {
   return out;
 }
 
+Json strata_json(const BoundaryStatistics& boundary) {
+  Json list = Json::array();
+  for (std::size_t s = 0; s < boundary.strata.size(); ++s) {
+    const BoundaryStatistics::Piece& piece = boundary.strata[s];
+    Json out;
+    out["stratum"] = s;
+    out["dim"] = piece.dim;
+    out["inequalities"] = piece.inequalities;
+    out["is_cut"] = piece.is_cut;
+    out["cells"] = piece.num_cells;
+    out["euler_characteristic"] = piece.euler_characteristic;
+    out["faces"] = piece.faces;
+    list.push_back(std::move(out));
+  }
+  return list;
+}
+
 Json quality_json(const ComplexQuality& q) {
   Json out;
   out["thickness_min"] = q.thickness_min;
@@ -61,7 +78,14 @@ std::string to_json(const Statistics& s) {
   out["f_vector"] = t.f_vector;
   out["euler_characteristic"] = t.euler_characteristic;
   out["components"] = t.components;
-  out["boundary_components"] = t.boundary_components;
+  out["boundary_components"] = s.boundary ? s.boundary->boundary_components : t.boundary_components;
+  if (s.boundary) {
+    out["cut_components"] = s.boundary->cut_components;
+    out["strata"] = strata_json(*s.boundary);
+    out["smallest_singular_value"] = s.boundary->smallest_singular_value;
+    out["smallest_singular_point"] = s.boundary->smallest_singular_point;
+    out["singular_points"] = s.boundary->singular_points;
+  }
   out["is_closed_manifold"] = t.manifold == ManifoldKind::kNotChecked ? Json(nullptr) : Json(t.is_closed_manifold());
   out["is_manifold"] = t.manifold == ManifoldKind::kNotChecked ? Json(nullptr) : Json(t.is_manifold());
   if (t.witness) out["witness"] = {{"vertices", t.witness->face}, {"reason", t.witness->reason}};

@@ -5,6 +5,7 @@
 #include <whitney/topology.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -27,6 +28,24 @@ struct CertificateStatistics {
   std::optional<std::vector<double>> witness;  ///< where: d coordinates
 };
 
+/// The boundary of what was traced, piece by piece.
+struct BoundaryStatistics {
+  struct Piece {
+    int dim = 0;
+    std::vector<std::string> inequalities;  ///< that vanish on it: "1 - x^2 = 0", or "x = 2" for a side of the box
+    bool is_cut = false;                    ///< one of them is a side of the box
+    std::size_t num_cells = 0;              ///< of dimension dim
+    std::int64_t euler_characteristic = 0;  ///< of its closure
+    std::vector<std::uint32_t> faces;       ///< the strata one dimension down in its closure: the stratum graph
+  };
+  std::vector<Piece> strata;
+  std::size_t boundary_components = 0;  ///< where an inequality of the problem vanishes
+  std::size_t cut_components = 0;       ///< where the box cuts
+  double smallest_singular_value = 1;   ///< see CutRegularity
+  std::vector<double> smallest_singular_point;
+  std::vector<std::vector<double>> singular_points;
+};
+
 /// What a run of the program reports; the keys of the JSON file are the names of the members.
 struct Statistics {
   int ambient_dim = 0, intrinsic_dim = 0;
@@ -41,7 +60,8 @@ struct Statistics {
   std::map<std::string, double> seconds;         ///< by phase
   std::string stop_reason = "none";
   std::optional<CertificateStatistics> certificate{};
-  std::optional<ComplexQuality> quality{};  ///< of the mesh that is written; angles in radians
+  std::optional<BoundaryStatistics> boundary{};  ///< when there are inequalities, or the box cut something off
+  std::optional<ComplexQuality> quality{};       ///< of the mesh that is written; angles in radians
 };
 
 /// JSON text, one key a line, ending in a newline. Adds peak_rss_bytes of this process.

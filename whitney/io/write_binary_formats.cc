@@ -79,6 +79,19 @@ void write_ply(AtomicFile& file, const MeshView& mesh) {
                                     : "element face " + std::to_string(mesh.num_cells()) + "\nproperty list " +
                                           (short_counts ? "uchar" : "uint") + " uint vertex_indices\n";
   for (const std::string& name : property_names(mesh.cell_data, taken)) cells += "property double " + name + "\n";
+  // The curves on a surface that are strata of it; its corners are marked at the vertices.
+  std::string edges;
+  for (const MeshStratum& stratum : mesh.strata) {
+    if (mesh.dim != 2 || stratum.dim != 1) continue;
+    for (std::size_t i = 0; i < stratum.simplices.size(); i += 2) {
+      append(edges, stratum.simplices[i]);
+      append(edges, stratum.simplices[i + 1]);
+      append(edges, static_cast<double>(stratum.stratum));
+    }
+  }
+  if (!edges.empty())
+    cells += "element edge " + std::to_string(edges.size() / 16) +
+             "\nproperty uint vertex1\nproperty uint vertex2\nproperty double stratum\n";
   file.write(header + vertex + cells + "end_header\n");
 
   std::string row;
@@ -102,6 +115,7 @@ void write_ply(AtomicFile& file, const MeshView& mesh) {
     append_values(row, mesh.cell_data, c);
     file.write(row);
   }
+  file.write(edges);
 }
 
 void write_stl(AtomicFile& file, const MeshView& mesh) {

@@ -103,6 +103,13 @@ void check(const MeshView& mesh) {
                          " has a coordinate that is not finite");
     }
   }
+  for (const MeshStratum& stratum : mesh.strata) {
+    const auto size = static_cast<std::size_t>(stratum.dim) + 1;
+    if (stratum.dim < 0 || stratum.dim >= mesh.dim || stratum.simplices.size() % size != 0 ||
+        std::any_of(stratum.simplices.begin(), stratum.simplices.end(), [&](auto v) { return v >= num_points; })) {
+      throw InvalidInput("mesh: stratum " + std::to_string(stratum.stratum) + " is no list of simplices of the mesh");
+    }
+  }
   check_arrays(mesh.point_data, num_points);
   check_arrays(mesh.cell_data, mesh.num_cells());
 }
@@ -175,6 +182,7 @@ void write_mesh(const std::filesystem::path& path, const SimplicialMesh& mesh, c
   view.corners = mesh.simplices;
   view.point_data = mesh.point_data;
   view.cell_data = mesh.cell_data;
+  view.strata = mesh.strata;
   write_view(path, std::move(view), options);
 }
 

@@ -3,6 +3,8 @@
 #include <whitney/io/internal/mesh_writers.h>
 #include <whitney/io/internal/surface.h>
 
+#include <algorithm>
+
 namespace whitney::io {
 
 namespace {
@@ -72,7 +74,17 @@ void write_obj(AtomicFile& file, const MeshView& mesh) {
     write_row(file, {normals->data() + 3 * i, 3});
     file.write('\n');
   }
+  const auto labels = std::find_if(mesh.cell_data.begin(), mesh.cell_data.end(),
+                                   [](const NamedArray& array) { return array.name == "stratum"; });
+  const bool labelled = labels != mesh.cell_data.end() && !mesh.strata.empty();
+  const auto write_group = [&](std::uint64_t stratum) {
+    file.write("g stratum_");
+    file.write(stratum);
+    file.write('\n');
+  };
   for (std::size_t c = 0; c < mesh.num_cells(); ++c) {
+    if (labelled && (c == 0 || labels->values[c] != labels->values[c - 1]))
+      write_group(static_cast<std::uint64_t>(labels->values[c]));
     file.write(mesh.dim == 1 ? 'l' : 'f');
     for (const std::uint32_t v : mesh.cell(c)) {
       file.write(' ');
@@ -83,6 +95,16 @@ void write_obj(AtomicFile& file, const MeshView& mesh) {
       }
     }
     file.write('\n');
+  }
+  for (const MeshStratum& stratum : mesh.strata) {
+    write_group(static_cast<std::uint64_t>(stratum.stratum));
+    for (std::size_t i = 0; i < stratum.simplices.size(); ++i) {
+      const bool first = i % (static_cast<std::size_t>(stratum.dim) + 1) == 0;
+      if (first) file.write(stratum.dim == 0 ? "p" : "l");
+      file.write(' ');
+      file.write(std::uint64_t{stratum.simplices[i]} + 1);
+      if ((i + 1) % (static_cast<std::size_t>(stratum.dim) + 1) == 0) file.write('\n');
+    }
   }
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <functional>
+#include <limits>
 
 static_assert(std::endian::native == std::endian::little, "binary files are written in the byte order of the machine");
 
@@ -92,12 +93,28 @@ void write_vtu(AtomicFile& file, const MeshView& mesh) {
   constexpr std::uint8_t kCellType[] = {1, 3, 5, 10};  // vertex, line, triangle, tetrahedron
   constexpr std::uint8_t kPolygon = 7;
 
+  // Strata follow the cells, as cells of lower dimension.
+  const std::uint64_t num_corners = mesh.corners.size(), num_cells = mesh.num_cells();
+  std::vector<std::uint32_t> corners;
+  std::vector<std::uint64_t> ends;
+  std::vector<std::uint8_t> types;
+  std::vector<double> strata;
+  for (const MeshStratum& stratum : mesh.strata) {
+    const std::size_t size = static_cast<std::size_t>(stratum.dim) + 1;
+    for (std::size_t i = 0; i < stratum.simplices.size(); i += size) {
+      ends.push_back(num_corners + corners.size() + i + size);
+      types.push_back(kCellType[stratum.dim]);
+      strata.push_back(stratum.stratum);
+    }
+    corners.insert(corners.end(), stratum.simplices.begin(), stratum.simplices.end());
+  }
+
   std::uint64_t offset = 0;
   std::vector<Block> blocks;
   std::string xml =
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
       "header_type=\"UInt64\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"" +
-      std::to_string(mesh.num_points()) + "\" NumberOfCells=\"" + std::to_string(mesh.num_cells()) + "\">\n";
+      std::to_string(mesh.num_points()) + "\" NumberOfCells=\"" + std::to_string(num_cells + types.size()) + "\">\n";
   const auto add = [&](Block block) {
     xml += block.tag + std::to_string(offset) + "\"/>\n";
     offset += encoded_size(block.bytes);
@@ -110,18 +127,35 @@ void write_vtu(AtomicFile& file, const MeshView& mesh) {
   xml += "<Points>\n";
   add(array_block("Points", 3, mesh.xyz));
   xml += "</Points>\n<Cells>\n";
-  add(generated_block<std::int64_t>("Int64", "connectivity", mesh.corners.size(),
-                                    [&](std::uint64_t i) { return mesh.corners[i]; }));
-  add(generated_block<std::int64_t>("Int64", "offsets", mesh.num_cells(), [&](std::uint64_t i) {
+  add(generated_block<std::int64_t>("Int64", "connectivity", num_corners + corners.size(), [&](std::uint64_t i) {
+    return i < num_corners ? mesh.corners[i] : corners[i - num_corners];
+  }));
+  add(generated_block<std::int64_t>("Int64", "offsets", num_cells + types.size(), [&](std::uint64_t i) {
+    if (i >= num_cells) return ends[i - num_cells];
     return mesh.offsets.empty() ? (i + 1) * static_cast<std::uint64_t>(mesh.dim + 1) : mesh.offsets[i + 1];
   }));
-  add(generated_block<std::uint8_t>("UInt8", "types", mesh.num_cells(),
-                                    [&](std::uint64_t) { return mesh.polygons ? kPolygon : kCellType[mesh.dim]; }));
+  add(generated_block<std::uint8_t>("UInt8", "types", num_cells + types.size(), [&](std::uint64_t i) {
+    if (i >= num_cells) return types[i - num_cells];
+    return mesh.polygons ? kPolygon : kCellType[mesh.dim];
+  }));
   xml += "</Cells>\n<PointData>\n";
   add(array_block("coordinates", mesh.ambient_dim, mesh.points));
   add_arrays(mesh.point_data);
   xml += "</PointData>\n<CellData>\n";
-  add_arrays(mesh.cell_data);
+  std::vector<NamedArray> cell_data;
+  if (types.empty()) {
+    add_arrays(mesh.cell_data);
+  } else {
+    cell_data.assign(mesh.cell_data.begin(), mesh.cell_data.end());
+    for (NamedArray& array : cell_data) {
+      if (array.name == "stratum" && array.components == 1)
+        array.values.insert(array.values.end(), strata.begin(), strata.end());
+      else
+        array.values.resize((num_cells + types.size()) * static_cast<std::size_t>(array.components),
+                            std::numeric_limits<double>::quiet_NaN());
+    }
+    add_arrays(cell_data);
+  }
   xml += "</CellData>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"base64\">\n_";
 
   file.write(xml);

@@ -28,11 +28,14 @@ class MeshBuilder {
   /// A cell by its points, counted from 0. Returns "", or what is wrong with it.
   std::string add_cell(std::span<const std::uint64_t> points);
 
-  /// Cells of one size as simplices (if `simplices`, or if they have at most three corners), else as polygons.
-  /// Throws FileError naming `path`.
+  /// Cells of one size as simplices (if `simplices`, or if they have at most three corners), else as polygons. Cells of
+  /// lower dimension are left out if they are faces of others: edges and points, with `simplices` triangles too.
+  /// Throws FileError naming `path`, also for other mixtures of dimensions.
   SimplicialMesh finish(const std::string& path, bool simplices);
 
  private:
+  void drop_lower_cells(const std::string& path, bool simplices);
+
   SimplicialMesh mesh_;
   std::vector<std::size_t> offsets_{0};
   std::vector<std::uint32_t> corners_;

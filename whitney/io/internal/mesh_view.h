@@ -21,6 +21,7 @@ struct MeshView {
   std::span<const std::uint32_t> offsets;  ///< of polygon meshes; simplices all have dim + 1 corners
   std::span<const NamedArray> point_data;
   std::span<const NamedArray> cell_data;
+  std::span<const MeshStratum> strata;
   std::vector<std::string> variables;  ///< d names
   std::vector<double> xyz;             ///< num_points x 3
   std::vector<double> color;           ///< one value in [0, 1] per point, or empty

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <whitney/cut_regularity.h>
+#include <whitney/io/problem.h>
+#include <whitney/io/statistics.h>
+#include <whitney/io/write_mesh.h>
+#include <whitney/strata.h>
+
+#include <string>
+#include <vector>
+
+namespace whitney::cli {
+
+/// What the statistics say about the boundary. `mesh` was made with the strata.
+BoundaryStatistics boundary_statistics(const Strata& strata, const SimplicialMesh& mesh,
+                                       const CutRegularity& regularity, const Problem& problem);
+
+/// The same in a few lines of text, each ending in a newline.
+std::string describe(const BoundaryStatistics& boundary);
+
+/// Writes every stratum to a file of its own, "name_3.vtu" for stratum 3 and the pattern "name.vtu"; those of a
+/// dimension that the format cannot hold are left out. Returns the names; appends what went wrong to `failed`, a line
+/// each.
+std::vector<std::string> write_strata(const std::string& pattern, const SimplicialMesh& mesh, std::size_t num_strata,
+                                      const MeshWriteOptions& options, std::string& failed);
+
+}  // namespace whitney::cli
