@@ -640,6 +640,20 @@ class Gluer {
 
 }  // namespace
 
+ChartPiece chart_piece(std::string name, SimplicialMesh mesh, const Strata& strata) {
+  std::map<int, BoundaryPart> parts;
+  for (const MeshStratum& stratum : mesh.strata) {
+    const std::vector<int>& inequalities = strata.strata.at(stratum.stratum).inequalities;
+    if (inequalities.size() != 1 || stratum.dim + 1 != mesh.dim) continue;
+    BoundaryPart& part = parts[inequalities[0]];
+    part.inequality = inequalities[0];
+    part.simplices.insert(part.simplices.end(), stratum.simplices.begin(), stratum.simplices.end());
+  }
+  ChartPiece piece{std::move(name), std::move(mesh)};
+  for (auto& [inequality, part] : parts) piece.boundary.push_back(std::move(part));
+  return piece;
+}
+
 GluedMesh glue_charts(std::span<const ChartPiece> pieces, std::span<const Seam> seams, const GlueOptions& options) {
   return Gluer(pieces, seams, options).run();
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <whitney/mesh.h>
+#include <whitney/strata.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -30,6 +31,10 @@ struct ChartPiece {
   SimplicialMesh mesh{};                 ///< in R^d; point_data and cell_data are ignored
   std::vector<BoundaryPart> boundary{};  ///< at most one for an inequality; none: nothing lies on it
 };
+
+/// The piece of a chart whose mesh was subdivided with its strata (see subdivide.h): its boundary parts are the strata
+/// of dimension n - 1. Sides of the box that cut the manifold have numbers that no seam names, and stay boundary.
+ChartPiece chart_piece(std::string name, SimplicialMesh mesh, const Strata& strata);
 
 /// Says that the boundary part of one chart is the same set as that of another, or of the same chart.
 ///

@@ -6,13 +6,13 @@
 #include <whitney/cell_complex.h>
 #include <whitney/find_seeds.h>
 #include <whitney/projective_charts.h>
+#include <whitney/strata.h>
 #include <whitney/subdivide.h>
 #include <whitney/topology.h>
 #include <whitney/trace.h>
 
 #include <cmath>
 #include <limits>
-#include <map>
 #include <random>
 #include <string>
 #include <vector>
@@ -182,92 +182,13 @@ TEST(ProjectiveCharts, Errors) {
   EXPECT_THROW(projective_charts(variables, Strings{"z1 + 1"}), InvalidInput);
 }
 
-/// The piece of a curve or surface where g >= 0: simplices cut at zeros interpolated along their edges.
-ChartPiece clipped(const SimplicialMesh& mesh, const Function& g) {
-  using Edge = std::pair<std::uint32_t, std::uint32_t>;
-  const std::size_t d = mesh.ambient_dim, corners = mesh.dim + 1;
-  ChartPiece piece;
-  piece.mesh.ambient_dim = mesh.ambient_dim;
-  piece.mesh.dim = mesh.dim;
-  std::vector<double>& points = piece.mesh.points = mesh.points;
-  std::vector<std::vector<std::uint32_t>> simplices;
-  for (std::size_t s = 0; s < mesh.num_simplices(); ++s) {
-    simplices.emplace_back(mesh.simplices.begin() + s * corners, mesh.simplices.begin() + (s + 1) * corners);
-  }
-  std::map<std::vector<std::uint32_t>, int> label;
-  for (int j = 0; j < g.codim(); ++j) {
-    std::map<Edge, std::uint32_t> crossing;
-    const auto value = [&](std::uint32_t v) {
-      return values(g, std::vector<double>(points.begin() + v * d, points.begin() + (v + 1) * d))[j];
-    };
-    std::vector<double> at;
-    for (std::uint32_t v = 0; v < points.size() / d; ++v) at.push_back(value(v));
-    const auto cut = [&](std::uint32_t a, std::uint32_t b) {
-      const Edge edge = std::minmax(a, b);
-      const auto [found, is_new] = crossing.try_emplace(edge, points.size() / d);
-      if (is_new) {
-        const double t = at[edge.first] / (at[edge.first] - at[edge.second]);
-        for (std::size_t i = 0; i < d; ++i) {
-          points.push_back((1 - t) * points[edge.first * d + i] + t * points[edge.second * d + i]);
-        }
-      }
-      return found->second;
-    };
-    std::vector<std::vector<std::uint32_t>> kept;
-    std::map<std::vector<std::uint32_t>, int> kept_label;
-    const auto mark = [&](std::vector<std::uint32_t> face, int inequality) {
-      std::sort(face.begin(), face.end());
-      kept_label[face] = inequality;
-    };
-    for (const auto& s : simplices) {
-      std::vector<std::uint32_t> polygon;
-      for (std::size_t i = 0; i < corners; ++i) {
-        const std::uint32_t a = s[i], b = s[(i + 1) % corners];
-        if (at[a] >= 0) polygon.push_back(a);
-        if ((at[a] >= 0) != (at[b] >= 0) && (corners > 2 || i == 0)) polygon.push_back(cut(a, b));
-      }
-      if (polygon.size() < corners) continue;
-      if (corners == 2) {
-        kept.push_back(polygon);
-      } else {
-        for (std::size_t i = 2; i < polygon.size(); ++i) kept.push_back({polygon[0], polygon[i - 1], polygon[i]});
-      }
-      for (std::uint32_t v : polygon) {
-        if (corners == 2 && v >= at.size()) mark({v}, j);
-      }
-      for (std::size_t i = 0; corners == 3 && i < polygon.size(); ++i) {
-        const std::uint32_t a = polygon[i], b = polygon[(i + 1) % polygon.size()];
-        if (a >= at.size() && b >= at.size()) mark({a, b}, j);
-      }
-    }
-    for (const auto& [face, inequality] : label) {
-      if (face.size() == 1) {
-        if (at[face[0]] >= 0) mark(face, inequality);
-        continue;
-      }
-      const bool a = at[face[0]] >= 0, b = at[face[1]] >= 0;
-      if (a && b) mark(face, inequality);
-      if (a != b) mark({a ? face[0] : face[1], cut(face[0], face[1])}, inequality);
-    }
-    simplices = std::move(kept);
-    label = std::move(kept_label);
-  }
-  for (const auto& s : simplices) piece.mesh.simplices.insert(piece.mesh.simplices.end(), s.begin(), s.end());
-  for (int j = 0; j < g.codim(); ++j) {
-    BoundaryPart part{j, {}};
-    for (const auto& [face, inequality] : label) {
-      if (inequality == j) part.simplices.insert(part.simplices.end(), face.begin(), face.end());
-    }
-    piece.boundary.push_back(part);
-  }
-  return piece;
-}
-
+/// Every chart traced in its domain, with the boundary that the tracer found.
 GluedMesh traced_and_glued(const ChartAtlas& atlas, double edge_length) {
   const int d = atlas.ambient_dim();
   std::vector<ChartPiece> pieces;
   for (const Chart& chart : atlas.charts) {
     TraceOptions options;
+    options.inequalities = chart.inequalities;
     options.box.emplace();
     for (const auto& [lower, upper] : chart.box) {
       options.box->lower.push_back(lower);
@@ -276,10 +197,10 @@ GluedMesh traced_and_glued(const ChartAtlas& atlas, double edge_length) {
     Eigen::VectorXd offset(d);
     for (int i = 0; i < d; ++i) offset[i] = 0.0123 * (i + 1);
     const auto triangulation = coxeter::coxeter_a(d, edge_length).transformed(Eigen::MatrixXd::Identity(d, d), offset);
-    const TraceResult traced =
-        trace(chart.function, triangulation, find_seeds(chart.function, *options.box).points, options);
-    pieces.push_back(clipped(pulled_subdivision(cell_complex(traced)), *chart.inequalities));
-    pieces.back().name = chart.name;
+    const std::vector<double> seeds = find_seeds(chart.function, Domain(d, options.inequalities, options.box)).points;
+    const CellComplex complex = cell_complex(trace(chart.function, triangulation, seeds, options));
+    const Strata strata = strata_of(complex);
+    pieces.push_back(chart_piece(chart.name, pulled_subdivision(complex, &strata), strata));
   }
   GlueOptions options;
   options.embeddings = atlas.embeddings;
@@ -287,7 +208,7 @@ GluedMesh traced_and_glued(const ChartAtlas& atlas, double edge_length) {
   return glue_charts(pieces, atlas.seams, options);
 }
 
-/// Traced in the whole boxes, cut here, glued: curves whose genus is known.
+/// Curves whose genus is known.
 TEST(ProjectiveCharts, CurvesOfKnownGenus) {
   struct Curve {
     const char* equation;
