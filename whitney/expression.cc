@@ -2,6 +2,7 @@
 #include <coxeter/error.h>
 #include <ginac/ginac.h>
 #include <whitney/expression.h>
+#include <whitney/homogeneous_equations.h>
 
 #include <algorithm>
 #include <array>
@@ -13,9 +14,12 @@
 #include <mutex>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <utility>
 #include <vector>
+
+// Everything that touches GiNaC stands in this file: its headers stay out of ours, and one mutex guards it.
 
 namespace whitney {
 namespace {
@@ -74,18 +78,33 @@ double nearest_double(const numeric& value) {
   return value.to_double();
 }
 
-/// The symbols of one parse. Decimal numbers are opaque symbols: GiNaC would round them in its own way, or, as rational
-/// numbers, pull common factors of twenty digits out of sums.
+/// What a text may say.
+enum class Dialect {
+  kFunctions,           ///< everything that expression.h lists, over R
+  kPolynomials,         ///< polynomials over R: functions, quotients and other powers of constants only
+  kComplexPolynomials,  ///< polynomials over C in the variables and their conjugates: i, conj, real, imag, abs2
+};
+
+/// The names that kComplexPolynomials adds.
+const std::array<std::string_view, 5> kComplexNames{"i", "conj", "real", "imag", "abs2"};
+
+/// The symbols of one parse. With kComplexPolynomials, variable i stands for the i-th name and variable N + i for its
+/// conjugate; both are real for GiNaC, which must not simplify what it thinks it knows about them. Decimal numbers are
+/// opaque symbols: GiNaC would round them in its own way, or, as rational numbers, pull common factors of twenty digits
+/// out of sums.
 class Symbols {
  public:
-  explicit Symbols(std::span<const std::string> names) : names_(names) {
-    for (std::size_t i = 0; i < names.size(); ++i) {
+  explicit Symbols(std::span<const std::string> names, Dialect dialect = Dialect::kFunctions)
+      : names_(names), dialect_(dialect) {
+    for (std::size_t i = 0; i < names.size() * (dialect == Dialect::kComplexPolynomials ? 2 : 1); ++i) {
       variables_.push_back(GiNaC::realsymbol());
       index_[variables_.back()] = static_cast<int>(i);
     }
   }
 
   std::span<const std::string> names() const { return names_; }
+  Dialect dialect() const { return dialect_; }
+  bool is_complex() const { return dialect_ == Dialect::kComplexPolynomials; }
   const GiNaC::realsymbol& variable(int i) const { return variables_[i]; }
   std::optional<int> variable_index(const ex& symbol) const {
     const auto found = index_.find(symbol);
@@ -104,8 +123,22 @@ class Symbols {
   }
   double constant_value(const ex& symbol) const { return value_of_.at(symbol); }
 
+  bool has_variables(const ex& e) const {
+    if (GiNaC::is_a<GiNaC::symbol>(e)) return index_.contains(e);
+    return std::any_of(e.begin(), e.end(), [this](const ex& part) { return has_variables(part); });
+  }
+
+  /// The conjugate of a polynomial; kComplexPolynomials.
+  ex conjugate(const ex& e) const {
+    GiNaC::exmap exchange;
+    const std::size_t count = names_.size();
+    for (std::size_t i = 0; i < 2 * count; ++i) exchange[variables_[i]] = variables_[(i + count) % (2 * count)];
+    return e.conjugate().subs(exchange, GiNaC::subs_options::no_pattern);
+  }
+
  private:
   std::span<const std::string> names_;
+  Dialect dialect_;
   std::vector<GiNaC::realsymbol> variables_;
   std::map<ex, int, GiNaC::ex_is_less> index_;
   std::map<double, ex> symbol_of_;
@@ -171,7 +204,10 @@ class Parser {
     if (constant && !std::isfinite(*constant)) fail(position, "the value is not a finite real number");
     if (GiNaC::is_exactly_a<numeric>(e)) {
       const numeric& value = GiNaC::ex_to<numeric>(e);
-      if (!value.is_real()) fail(position, "the value is complex");
+      if (!value.is_real()) {
+        if (symbols_.is_complex()) return {std::move(e), std::nullopt};
+        fail(position, "the value is complex");
+      }
       constant = nearest_double(value);
       if (!std::isfinite(*constant)) fail(position, "the value is beyond the range of double");
     }
@@ -209,6 +245,7 @@ class Parser {
       const std::size_t operand = position_;
       const Value next = signed_power();
       if (divide && (next.e.is_zero() || next.constant == 0.0)) fail(operand, "division by zero");
+      if (divide) check_polynomial(next.e, "a quotient", operand);
       factors.push_back(divide ? GiNaC::pow(next.e, -1) : next.e);
       if (constant && next.constant) {
         *constant = divide ? *constant / *next.constant : *constant * *next.constant;
@@ -246,7 +283,11 @@ class Parser {
       if (!std::isfinite(*constant)) fail(position, "the value is not a finite real number");
       if (*constant == 0 && *base.constant != 0) fail(position, "the value is too small for double");
     }
-    if (!exponent.constant) return checked(GiNaC::pow(base.e, exponent.e), constant, position);
+    if (!exponent.constant) {
+      check_polynomial(base.e * exponent.e, "a power", position);
+      if (symbols_.is_complex()) fail(position, "an exponent must be real");
+      return checked(GiNaC::pow(base.e, exponent.e), constant, position);
+    }
     if (base.e.is_zero() && *exponent.constant <= 0) fail(position, "0 to the power of 0 or less");
     // A constant exponent is a number for GiNaC, so that it knows the derivative: rational, or the double as it is.
     numeric n;
@@ -257,11 +298,15 @@ class Parser {
       const double mantissa = std::frexp(*exponent.constant, &binary);
       n = numeric(static_cast<long>(std::ldexp(mantissa, 53))) * numeric(2).power(binary - 53);
     }
+    if (!n.is_nonneg_integer()) check_polynomial(base.e, "a power that is no integer from 0 on", position);
     if (!n.is_integer()) {
+      if (symbols_.is_complex() && !constant) fail(position, "a power of a complex number must be an integer");
+      if (constant && symbols_.dialect() != Dialect::kFunctions) return {symbols_.constant(*constant), constant};
       if (constant && n != numeric(1, 2)) return checked(symbols_.constant(*constant), constant, position);
     } else {
       // GiNaC raises the numeric content of the base to the power exactly: keep it within the range of double.
-      const double bits = std::log2(nearest_double(base.e.integer_content())) * *exponent.constant;
+      const numeric content = base.e.integer_content();
+      const double bits = content.is_real() ? std::log2(nearest_double(content)) * *exponent.constant : 0;
       if (!base.e.is_zero() && !(std::abs(bits) < 1000)) fail(position, "the power leaves the range of double");
     }
     return checked(GiNaC::pow(base.e, n), constant, position);
@@ -278,13 +323,28 @@ class Parser {
     const std::string_view name = text_.substr(start, position_ - start);
     skip_space();
     if (name == kPi) return {GiNaC::Pi, std::numbers::pi};
+    if (symbols_.is_complex() && name == "i") return {GiNaC::I, std::nullopt};
+    if (symbols_.is_complex() && std::find(kComplexNames.begin(), kComplexNames.end(), name) != kComplexNames.end()) {
+      const Value z = argument_of(name);
+      const ex conjugate = symbols_.conjugate(z.e);
+      if (name == "conj") return checked(conjugate, z.constant, start);
+      if (name == "abs2") {
+        return checked(z.e * conjugate, z.constant ? std::optional(*z.constant * *z.constant) : std::nullopt, start);
+      }
+      if (name == "real") return checked((z.e + conjugate) / 2, z.constant, start);
+      return checked((z.e - conjugate) / (2 * GiNaC::I), z.constant ? std::optional(0.0) : std::nullopt, start);
+    }
     if (const NamedFunction* function = find_function(name)) {
-      const std::size_t open = position_;
-      if (!accept("(")) fail(open, "expected '(' after the function '" + std::string(name) + "'");
-      const Value argument = parenthesis(open);
+      const Value argument = argument_of(name);
+      check_polynomial(argument.e, "the function '" + std::string(name) + "'", start);
+      if (symbols_.is_complex() && !argument.constant) {
+        fail(start, "the function '" + std::string(name) + "' of a complex number");
+      }
       const std::optional<double> constant =
           argument.constant ? std::optional(function->value(*argument.constant)) : std::nullopt;
       if (constant && !std::isfinite(*constant)) fail(start, "the value is not a finite real number");
+      // A decimal: among the coefficients of a polynomial there are no functions.
+      if (symbols_.dialect() != Dialect::kFunctions) return {symbols_.constant(*constant), constant};
       return checked(function->symbolic(argument.e), constant, start);
     }
     const auto names = symbols_.names();
@@ -296,6 +356,17 @@ class Parser {
                       (names.empty() ? "a constant has no variables" : "the variables are " + known.substr(0, 200)));
     }
     return {symbols_.variable(static_cast<int>(found - names.begin())), std::nullopt};
+  }
+
+  Value argument_of(std::string_view function) {
+    const std::size_t open = position_;
+    if (!accept("(")) fail(open, "expected '(' after the function '" + std::string(function) + "'");
+    return parenthesis(open);
+  }
+
+  void check_polynomial(const ex& e, const std::string& what, std::size_t position) const {
+    if (symbols_.dialect() == Dialect::kFunctions || !symbols_.has_variables(e)) return;
+    fail(position, what + " of variables is no polynomial");
   }
 
   Value parenthesis(std::size_t open) {
@@ -340,6 +411,16 @@ class Lowering {
  public:
   Lowering(const Symbols& symbols, TapeBuilder& builder) : symbols_(symbols), builder_(builder) {}
 
+  struct Factor {
+    std::string key;
+    ex base, exponent;
+  };
+  struct Monomial {
+    std::string key;  ///< of the factors
+    numeric coefficient = 1;
+    std::vector<Factor> factors{};
+  };
+
   Node lower(const ex& e) {
     if (const auto found = nodes_.find(e); found != nodes_.end()) return found->second;
     Node result;
@@ -354,16 +435,21 @@ class Lowering {
     return nodes_[e] = result;
   }
 
+  /// The factors of a product, in an order and with signs that do not change from run to run.
+  Monomial monomial(const ex& e) {
+    Monomial result;
+    if (GiNaC::is_exactly_a<GiNaC::mul>(e)) {
+      for (const ex& factor : e) multiply(result, factor);
+    } else {
+      multiply(result, e);
+    }
+    std::sort(result.factors.begin(), result.factors.end(),
+              [](const Factor& a, const Factor& b) { return a.key < b.key; });
+    for (const Factor& factor : result.factors) result.key += "*" + factor.key;
+    return result;
+  }
+
  private:
-  struct Factor {
-    std::string key;
-    ex base, exponent;
-  };
-  struct Monomial {
-    std::string key;  ///< of the factors
-    numeric coefficient = 1;
-    std::vector<Factor> factors{};
-  };
   struct Sum {
     std::string key;
     numeric constant = 0;
@@ -392,19 +478,6 @@ class Lowering {
     for (const Monomial& term : result.terms) result.key += "," + text(term.coefficient) + term.key;
     result.key += ";";
     return sums_[e] = std::move(result);
-  }
-
-  Monomial monomial(const ex& e) {
-    Monomial result;
-    if (GiNaC::is_exactly_a<GiNaC::mul>(e)) {
-      for (const ex& factor : e) multiply(result, factor);
-    } else {
-      multiply(result, e);
-    }
-    std::sort(result.factors.begin(), result.factors.end(),
-              [](const Factor& a, const Factor& b) { return a.key < b.key; });
-    for (const Factor& factor : result.factors) result.key += "*" + factor.key;
-    return result;
   }
 
   void multiply(Monomial& product, const ex& e) {
@@ -509,6 +582,26 @@ class Lowering {
   std::map<ex, Node, GiNaC::ex_is_less> nodes_;
 };
 
+/// Collects expressions in the variables of `symbols` into a map.
+class MapCompiler {
+ public:
+  explicit MapCompiler(const Symbols& symbols)
+      : symbols_(symbols), dim_(static_cast<int>(symbols.names().size())), values_(dim_), derivatives_(dim_) {}
+
+  void add(const ex& e) {
+    value_nodes_.push_back(lower_value_.lower(e));
+    for (int i = 0; i < dim_; ++i) derivative_nodes_.push_back(lower_derivative_.lower(e.diff(symbols_.variable(i))));
+  }
+  CompiledMap build() const { return {values_.build(value_nodes_), derivatives_.build(derivative_nodes_)}; }
+
+ private:
+  const Symbols& symbols_;
+  int dim_;
+  TapeBuilder values_, derivatives_;
+  Lowering lower_value_{symbols_, values_}, lower_derivative_{symbols_, derivatives_};
+  std::vector<Node> value_nodes_, derivative_nodes_;
+};
+
 /// Calls `work`; what GiNaC or the tape says against it becomes a statement about the expression.
 template <class Work>
 auto on_expression(std::string_view text, Work work) {
@@ -561,18 +654,11 @@ CompiledMap compile(std::span<const std::string> variables, std::span<const std:
   check_variables(variables);
   const std::lock_guard lock(ginac_mutex());
   Symbols symbols(variables);
-  const int d = static_cast<int>(variables.size());
-  TapeBuilder values(d), derivatives(d);
-  Lowering lower_values(symbols, values), lower_derivatives(symbols, derivatives);
-  std::vector<Node> value_nodes, derivative_nodes;
+  MapCompiler compiler(symbols);
   for (const std::string& text : expressions) {
-    on_expression(text, [&] {
-      const ex e = Parser(text, symbols).parse().e;
-      value_nodes.push_back(lower_values.lower(e));
-      for (int i = 0; i < d; ++i) derivative_nodes.push_back(lower_derivatives.lower(e.diff(symbols.variable(i))));
-    });
+    on_expression(text, [&] { compiler.add(Parser(text, symbols).parse().e); });
   }
-  return {values.build(value_nodes), derivatives.build(derivative_nodes)};
+  return compiler.build();
 }
 
 Function make_function(CompiledMap map) {
@@ -598,6 +684,210 @@ double parse_constant(std::string_view expression) {
     Symbols symbols({});
     return Parser(expression, symbols).parse().constant.value();
   });
+}
+
+// Homogeneous equations.
+
+namespace {
+
+using Exponents = std::vector<int>;  ///< of the variables of Symbols: those named, then their conjugates
+
+/// The exponents of the monomials of a polynomial, sorted.
+std::set<Exponents> monomials(const ex& polynomial, const Symbols& symbols) {
+  const std::size_t count = symbols.names().size() * (symbols.is_complex() ? 2 : 1);
+  const ex expanded = polynomial.expand();
+  std::set<Exponents> result;
+  const auto add = [&](const ex& term) {
+    Exponents exponents;
+    for (std::size_t i = 0; i < count; ++i) exponents.push_back(term.degree(symbols.variable(static_cast<int>(i))));
+    result.insert(exponents);
+  };
+  if (GiNaC::is_exactly_a<GiNaC::add>(expanded)) {
+    for (const ex& term : expanded) add(term);
+  } else if (!expanded.is_zero()) {
+    add(expanded);
+  }
+  return result;
+}
+
+std::string text(const Exponents& exponents, std::span<const std::string> names) {
+  std::string result;
+  for (std::size_t i = 0; i < exponents.size(); ++i) {
+    if (exponents[i] == 0) continue;
+    const std::string& name = names[i % names.size()];
+    result += (result.empty() ? "" : "*") + (i < names.size() ? name : "conj(" + name + ")");
+    if (exponents[i] > 1) result += "^" + std::to_string(exponents[i]);
+  }
+  return result.empty() ? "1" : result;
+}
+
+/// Degree in the variables and degree in their conjugates.
+std::pair<int, int> bidegree(const Exponents& exponents, std::size_t num_names) {
+  std::pair<int, int> degree{0, 0};
+  for (std::size_t i = 0; i < exponents.size(); ++i) (i < num_names ? degree.first : degree.second) += exponents[i];
+  return degree;
+}
+
+void check_homogeneous(const ex& polynomial, const Symbols& symbols) {
+  const auto names = symbols.names();
+  const std::set<Exponents> all = monomials(polynomial, symbols);
+  if (all.empty()) throw InvalidInput("it is 0 identically");
+  const Exponents& first = *all.begin();
+  const auto degree = bidegree(first, names.size());
+  for (const Exponents& other : all) {
+    const auto other_degree = bidegree(other, names.size());
+    if (other_degree == degree) continue;
+    const auto describe = [&](const Exponents& exponents, std::pair<int, int> its) {
+      return text(exponents, names) + " has degree " + std::to_string(its.first) +
+             (symbols.is_complex() ? " in the variables and " + std::to_string(its.second) + " in their conjugates"
+                                   : "");
+    };
+    throw InvalidInput(std::string("it is not ") + (symbols.is_complex() ? "bihomogeneous: " : "homogeneous: ") +
+                       describe(first, degree) + ", " + describe(other, other_degree) +
+                       "; so its zeros are no set in projective space");
+  }
+  if (degree == std::pair(0, 0)) throw InvalidInput("it is constant");
+}
+
+/// A polynomial, taken apart into real and imaginary part in the coordinates of one chart. Nothing is expanded.
+class ChartSubstitution {
+ public:
+  struct Complex {
+    ex re, im;
+  };
+
+  ChartSubstitution(const Symbols& homogeneous, int chart, Symbols& coordinates)
+      : homogeneous_(homogeneous), chart_(chart), coordinates_(coordinates) {}
+
+  const Complex& operator()(const ex& e) {
+    const auto found = done_.find(e);
+    if (found != done_.end()) return found->second;
+    Complex result = substitute(e);
+    return done_[e] = std::move(result);
+  }
+
+ private:
+  static Complex product(const Complex& a, const Complex& b) {
+    return {a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re};
+  }
+
+  static Complex power(Complex base, int n) {
+    if (base.im.is_zero()) return {GiNaC::pow(base.re, n), 0};
+    if (n < 0) {  // of a constant
+      const ex squared = GiNaC::pow(base.re, 2) + GiNaC::pow(base.im, 2);
+      base = {base.re / squared, -base.im / squared};
+      n = -n;
+    }
+    Complex result{1, 0};
+    for (; n > 0; n /= 2) {
+      if (n % 2 == 1) result = product(result, base);
+      if (n > 1) base = {GiNaC::pow(base.re, 2) - GiNaC::pow(base.im, 2), 2 * base.re * base.im};
+    }
+    return result;
+  }
+
+  Complex substitute(const ex& e) {
+    if (GiNaC::is_exactly_a<numeric>(e)) {
+      const numeric& value = GiNaC::ex_to<numeric>(e);
+      return {value.real(), value.imag()};
+    }
+    if (GiNaC::is_exactly_a<GiNaC::constant>(e)) return {e, 0};
+    if (GiNaC::is_a<GiNaC::symbol>(e)) return symbol(e);
+    if (GiNaC::is_exactly_a<GiNaC::add>(e)) {
+      exvector re, im;
+      for (const ex& term : e) {
+        const Complex& part = (*this)(term);
+        re.push_back(part.re);
+        im.push_back(part.im);
+      }
+      return {GiNaC::add(re), GiNaC::add(im)};
+    }
+    if (GiNaC::is_exactly_a<GiNaC::mul>(e) || GiNaC::is_exactly_a<GiNaC::power>(e)) {
+      const Lowering::Monomial monomial = order_.monomial(e);
+      Complex result{monomial.coefficient.real(), monomial.coefficient.imag()};
+      for (const Lowering::Factor& factor : monomial.factors) {
+        if (!factor.exponent.info(GiNaC::info_flags::integer)) throw InvalidInput("it is no polynomial");
+        result = product(result, power((*this)(factor.base), GiNaC::ex_to<numeric>(factor.exponent).to_int()));
+      }
+      return result;
+    }
+    throw InvalidInput("it is no polynomial");
+  }
+
+  Complex symbol(const ex& e) {
+    const std::optional<int> index = homogeneous_.variable_index(e);
+    if (!index) return {coordinates_.constant(homogeneous_.constant_value(e)), 0};
+    const int count = static_cast<int>(homogeneous_.names().size()), variable = *index % count;
+    if (variable == chart_) return {1, 0};
+    const int place = variable - (variable > chart_);
+    if (!homogeneous_.is_complex()) return {coordinates_.variable(place), 0};
+    const ex y = coordinates_.variable(2 * place + 1);
+    return {coordinates_.variable(2 * place), *index < count ? y : ex(-y)};
+  }
+
+  const Symbols& homogeneous_;
+  int chart_;
+  Symbols& coordinates_;
+  TapeBuilder unused_{0};
+  Lowering order_{homogeneous_, unused_};
+  std::map<ex, Complex, GiNaC::ex_is_less> done_;
+};
+
+}  // namespace
+
+std::vector<CompiledMap> compile_affine_charts(std::span<const std::string> variables,
+                                               std::span<const std::string> equations, Field field) {
+  const bool complex = field == Field::kComplex;
+  if (variables.size() < 2) throw InvalidInput("projective space needs at least two variables");
+  if (equations.empty()) throw InvalidInput("there are no equations");
+  check_variables(variables);
+  for (const std::string& name : variables) {
+    if (complex && std::find(kComplexNames.begin(), kComplexNames.end(), name) != kComplexNames.end()) {
+      throw InvalidInput("variable '" + name + "': the name is reserved in complex equations");
+    }
+  }
+  const std::lock_guard lock(ginac_mutex());
+  Symbols homogeneous(variables, complex ? Dialect::kComplexPolynomials : Dialect::kPolynomials);
+  struct Equation {
+    ex polynomial;
+    bool has_re = true, has_im = false;
+  };
+  std::vector<Equation> parsed;
+  const std::size_t d = (variables.size() - 1) * (complex ? 2 : 1);
+  std::size_t k = 0;
+  for (const std::string& equation : equations) {
+    on_expression(equation, [&] {
+      Equation result{Parser(equation, homogeneous).parse().e};
+      check_homogeneous(result.polynomial, homogeneous);
+      if (complex) {
+        const ex conjugate = homogeneous.conjugate(result.polynomial);
+        result.has_re = !(result.polynomial + conjugate).expand().is_zero();
+        result.has_im = !(result.polynomial - conjugate).expand().is_zero();
+      }
+      k += result.has_re + result.has_im;
+      parsed.push_back(result);
+    });
+  }
+  if (k > d) {
+    throw InvalidInput(std::to_string(k) + " real equations in projective space of real dimension " +
+                       std::to_string(d) + ": there must not be more");
+  }
+  std::vector<CompiledMap> charts;
+  const std::vector<std::string> unnamed(d);
+  for (std::size_t c = 0; c < variables.size(); ++c) {
+    Symbols coordinates(unnamed);
+    ChartSubstitution substitute(homogeneous, static_cast<int>(c), coordinates);
+    MapCompiler compiler(coordinates);
+    for (std::size_t e = 0; e < parsed.size(); ++e) {
+      on_expression(equations[e], [&] {
+        const auto parts = substitute(parsed[e].polynomial);
+        if (parsed[e].has_re) compiler.add(parts.re);
+        if (parsed[e].has_im) compiler.add(parts.im);
+      });
+    }
+    charts.push_back(compiler.build());
+  }
+  return charts;
 }
 
 }  // namespace whitney

@@ -144,6 +144,108 @@ TEST(Problem, Examples) {
   EXPECT_GE(count, 14);
 }
 
+/// Two charts of the unit circle in the plane; `more` continues chart B, `rest` the file.
+std::string circle_charts(const std::string& more = "", const std::string& rest = "") {
+  return R"json({"variables": ["x", "y"], "charts": [
+    {"name": "A", "equations": ["x^2+y^2-1"], "inequalities": ["y"], "box": [[-2,2],[-2,2]], "seed_points": [[0,1]],
+     "embedding": ["x", "y", "0*x"]},
+    {"name": "B", "equations": ["x^2+y^2-1"], "inequalities": ["y", "x+2", "2-x"])json" +
+         more + R"json(, "embedding": ["x", "-y", "0"]}]
+    , "seams": [{"from": ["A", 0], "to": ["B", 0], "transition": ["x", "-y"]}])json" +
+         rest + "}";
+}
+
+TEST(Problem, Charts) {
+  const Problem p =
+      parse_problem(circle_charts("", R"(, "triangulation": {"edge_length": 0.2, "offset": [0, 1]})"), "p");
+  EXPECT_EQ(p.source, Problem::Source::kCharts);
+  EXPECT_FALSE(p.function || p.submanifold);
+  ASSERT_TRUE(p.atlas);
+  EXPECT_EQ(p.ambient_dim(), 2);
+  EXPECT_EQ(p.codim(), 1);
+  EXPECT_EQ(p.variables, (std::vector<std::string>{"x", "y"}));
+  EXPECT_EQ(p.triangulation.edge_length, 0.2);
+  const ChartAtlas& atlas = *p.atlas;
+  ASSERT_EQ(atlas.charts.size(), 2);
+  EXPECT_EQ(atlas.charts[0].name, "A");
+  EXPECT_EQ(atlas.charts[0].box.size(), 2);
+  EXPECT_EQ(atlas.charts[0].seed_points.size(), 1);
+  EXPECT_TRUE(atlas.charts[1].box.empty() && atlas.charts[1].seed_points.empty());
+  ASSERT_TRUE(atlas.charts[1].inequalities);
+  EXPECT_EQ(atlas.charts[1].inequalities->codim(), 3);  // more than there are dimensions
+  std::vector<double> g(3);
+  atlas.charts[1].inequalities->evaluate(std::vector<double>{0.5, 0.25}, g);
+  EXPECT_EQ(g, (std::vector<double>{0.25, 2.5, 1.5}));
+  ASSERT_EQ(atlas.seams.size(), 1);
+  EXPECT_EQ(atlas.seams[0].second_chart, 1);
+  std::vector<double> y(2), e(3);
+  atlas.seams[0].transition(std::vector<double>{3, 4}, y);
+  EXPECT_EQ(y, (std::vector<double>{3, -4}));
+  EXPECT_EQ(atlas.embedding_dim(), 3);
+  EXPECT_EQ(atlas.embedding_variables[2], "e3");
+  atlas.embeddings.at(1)(std::vector<double>{3, 4}, e);
+  EXPECT_EQ(e, (std::vector<double>{3, -4, 0}));
+  EXPECT_THROW(submanifold_of(p), InvalidInput);
+}
+
+TEST(Problem, Projective) {
+  const Problem p = parse_problem(
+      R"json({"projective": {"variables": ["z1","z2","z3"], "equations": ["z1^2*conj(z2) + z2^2*conj(z3) + z3^2*conj(z1)"],
+              "weights": [1, "5/4", 1.1]}})json",
+      "p");
+  ASSERT_TRUE(p.atlas);
+  EXPECT_EQ(p.ambient_dim(), 4);
+  EXPECT_EQ(p.codim(), 2);
+  EXPECT_EQ(p.variables, (std::vector<std::string>{"x1", "y1", "x2", "y2"}));
+  EXPECT_EQ(p.atlas->charts.size(), 3);
+  EXPECT_EQ(p.atlas->embedding_dim(), 9);
+  std::vector<double> g(2);
+  p.atlas->charts[0].inequalities->evaluate(std::vector<double>{0, 0.8, 0, 0}, g);
+  EXPECT_NEAR(g[0], 0, 1e-15);
+  const Problem real =
+      parse_problem(R"({"projective": {"variables": ["x","y","z"], "equations": ["x*y-z^2"], "field": "real"}})", "p");
+  EXPECT_EQ(real.ambient_dim(), 2);
+}
+
+TEST(Problem, ChartErrors) {
+  const auto expect = [](const std::string& text, const std::string& key, const std::string& reason) {
+    EXPECT_THAT(error_of(text), AllOf(HasSubstr("file.json"), HasSubstr(key), HasSubstr(reason))) << text;
+  };
+  EXPECT_EQ(error_of(circle_charts()), "no error");
+  expect(circle_charts(R"(, "colour": 1)"), "charts[1]", "colour");
+  expect(circle_charts(R"(, "box": [[0,1]])"), "charts[1].box", "2 elements");
+  expect(circle_charts("", R"(, "box": [[0,1],[0,1]])"), "box", "does not go with");
+  expect(circle_charts("", R"(, "equations": ["x"])"), "equations", "does not go with");
+  expect(circle_charts("", R"(, "projective": {})"), "charts", "own charts");
+  const auto seam = [](const std::string& seam) {
+    std::string text = circle_charts();
+    const std::size_t at = text.find("{\"from\"");
+    return text.substr(0, at) + seam + "]}";
+  };
+  expect(seam(R"({"from": ["A", 1], "to": ["B", 0], "transition": ["x", "y"]})"), "seams[0].from[1]", "1 inequalities");
+  expect(seam(R"({"from": ["A", 0], "to": ["C", 0], "transition": ["x", "y"]})"), "seams[0].to[0]", "no chart \"C\"");
+  expect(seam(R"({"from": ["A", 0], "to": ["B", 0], "transition": ["x"]})"), "seams[0].transition", "2 elements");
+  expect(seam(R"({"from": ["A", 0], "to": ["B", 0], "transition": ["x", "q"]})"), "seams[0].transition[1]", "'q'");
+  expect(seam(R"({"from": ["A", 0], "to": ["B", 0]})"), "seams[0]", "\"transition\" is missing");
+  const auto chart = [](const std::string& b) {
+    return R"({"variables": ["x","y"], "charts": [{"name": "A", "equations": ["x"]}, )" + b + "]}";
+  };
+  expect(chart(R"({"name": "A", "equations": ["x"]})"), "charts[1].name", "another");
+  expect(chart(R"({"name": "B", "equations": ["x", "y"]})"), "charts[1].equations", "as many equations");
+  expect(chart(R"({"name": "B", "equations": ["x"], "embedding": ["x"]})"), "charts[1]", "or none");
+  expect(chart(R"({"name": "B", "equations": ["x"], "inequalities": ["1", "+"]})"), "charts[1].inequalities[1]",
+         "expected");
+  expect(chart(R"({"equations": ["x"]})"), "charts[1]", "\"name\" is missing");
+  expect(with(R"("seams": [])"), "seams", "charts");
+  expect(R"({"projective": {"variables": ["a","b"], "equations": ["a+1"]}})", "projective", "not bihomogeneous");
+  expect(R"({"projective": {"variables": ["a","b"], "equations": ["a+b"], "weights": [1]}})", "projective.weights",
+         "2 elements");
+  expect(R"({"projective": {"variables": ["a","b"], "equations": ["a+b"], "field": "rational"}})", "projective.field",
+         "complex, real");
+  expect(R"({"projective": {"variables": ["a","b"], "equations": ["a+b"]}, "variables": ["a"]})", "variables",
+         "does not go");
+}
+
 TEST(Problem, ErrorsNameFileKeyAndReason) {
   const auto expect = [](const std::string& text, const std::string& key, const std::string& reason) {
     EXPECT_THAT(error_of(text), AllOf(HasSubstr("file.json"), HasSubstr(key), HasSubstr(reason))) << text;
@@ -219,7 +321,7 @@ TEST(Problem, ErrorsNameFileKeyAndReason) {
   expect(with(R"("inequalities": [])"), "inequalities", "empty");
   expect(with(R"("inequalities": "x")"), "inequalities", "list");
   expect(with(R"("inequalities": ["x", "x +"])"), "inequalities[1]", "position");
-  for (const char* key : {"points", "charts", "projective"}) {
+  for (const char* key : {"points"}) {
     expect(with("\"" + std::string(key) + "\": {}"), key, "does not support");
     expect("{\"" + std::string(key) + "\": []}", key, "does not support");
   }

@@ -158,6 +158,10 @@ int run_triangulate(const TriangulateArguments& arguments) {
   Stopwatch watch;
   Statistics statistics;
   Problem problem = read_problem(arguments.problem);
+  if (problem.atlas) {
+    throw InvalidInput(arguments.problem +
+                       ": charts have no closest points, which Whitney's construction needs: use `whitney trace`");
+  }
   const int d = problem.ambient_dim(), k = problem.codim(), n = d - k;
   if (n < 1) throw InvalidInput(arguments.problem + ": no manifold of dimension 1 or more");
   const bool polygons = arguments.mesh == "cells";

@@ -7,6 +7,7 @@
 #include <whitney/named_manifolds.h>
 #include <whitney/named_submanifolds.h>
 #include <whitney/parametric_manifold.h>
+#include <whitney/projective_charts.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -20,6 +21,7 @@
 #include <set>
 #include <span>
 #include <sstream>
+#include <tuple>
 #include <utility>
 
 namespace whitney {
@@ -100,6 +102,11 @@ class Entry {
     if (!(value > 0)) fail("must be positive");
     return value;
   }
+  std::vector<std::string> strings(std::size_t size = 0) const {
+    std::vector<std::string> values;
+    for (const Entry& element : list(size)) values.push_back(element.string());
+    return values;
+  }
   std::vector<double> numbers(std::size_t size) const {
     std::vector<double> values;
     for (const Entry& element : list(size)) values.push_back(element.number());
@@ -170,16 +177,10 @@ TriangulationSpec read_triangulation(const Entry& entry, std::size_t d) {
   return spec;
 }
 
-std::vector<std::string> read_texts(const Entry& entry) {
-  std::vector<std::string> texts;
-  for (const Entry& element : entry.list()) texts.push_back(element.string());
-  return texts;
-}
-
 /// A list of expressions of the variables; `make` makes the function of the texts, and throws InvalidInput.
 template <class Make>
 Function read_map(const std::vector<std::string>& variables, const Entry& entry, Make make) {
-  const std::vector<std::string> texts = read_texts(entry);
+  const std::vector<std::string> texts = entry.strings();
   try {
     return make(texts);
   } catch (const InvalidInput& error) {
@@ -254,6 +255,113 @@ Submanifold read_parametrization(const Entry& entry) {
   return entry.at("map").located([&] { return parametric_manifold(parameters, std::move(domain), map); });
 }
 
+/// A map by its expressions; size 0: any number of them.
+CoordinateMap read_coordinate_map(const std::vector<std::string>& variables, const Entry& entry, std::size_t size = 0) {
+  entry.list(size);
+  const Function map =
+      read_map(variables, entry, [&](const auto& texts) { return make_function(compile(variables, texts)); });
+  return [map](std::span<const double> x, std::span<double> y) { map.evaluate(x, y); };
+}
+
+ChartAtlas read_projective(const Entry& entry) {
+  entry.expect_keys({"variables", "equations", "field", "weights"});
+  ProjectiveOptions options;
+  if (entry.has("field")) {
+    options.field = entry.at("field").choice<Field>({{"complex", Field::kComplex}, {"real", Field::kReal}});
+  }
+  const std::vector<std::string> variables = entry.at("variables").strings();
+  entry.at("variables").located([&] { check_variables(variables); });
+  if (entry.has("weights")) options.weights = entry.at("weights").numbers(variables.size());
+  const std::vector<std::string> equations = entry.at("equations").strings();
+  return entry.located([&] { return projective_charts(variables, equations, options); });
+}
+
+Chart read_chart(const std::vector<std::string>& variables, const Entry& entry, ChartAtlas& atlas) {
+  entry.expect_keys({"name", "equations", "inequalities", "box", "seed_points", "embedding"});
+  const std::size_t d = variables.size();
+  Chart chart{entry.at("name").string(), read_equations(variables, entry.at("equations"))};
+  for (const Chart& other : atlas.charts) {
+    if (other.name == chart.name) entry.at("name").fail("another chart has this name");
+    if (other.function.codim() != chart.function.codim()) {
+      entry.at("equations")
+          .fail("every chart must have as many equations as the first, " + std::to_string(other.function.codim()));
+    }
+  }
+  if (entry.has("inequalities")) chart.inequalities = read_inequalities(variables, entry.at("inequalities"));
+  if (entry.has("box")) {
+    for (const Entry& side : entry.at("box").list(d)) chart.box.push_back(read_side(side));
+  }
+  if (entry.has("seed_points")) {
+    for (const Entry& point : entry.at("seed_points").list()) chart.seed_points.push_back(point.numbers(d));
+  }
+  if (entry.has("embedding") != (atlas.charts.empty() ? entry.has("embedding") : !atlas.embeddings.empty())) {
+    entry.fail("either every chart has an \"embedding\", or none");
+  }
+  if (entry.has("embedding")) {
+    const Entry embedding = entry.at("embedding");
+    atlas.embeddings.push_back(read_coordinate_map(variables, embedding, atlas.embedding_variables.size()));
+    for (std::size_t i = atlas.embedding_variables.size(); i < embedding.list().size(); ++i) {
+      atlas.embedding_variables.push_back("e" + std::to_string(i + 1));
+    }
+  }
+  return chart;
+}
+
+/// One side of a seam: [name of a chart, number of an inequality].
+std::pair<int, int> read_seam_side(const Entry& entry, const ChartAtlas& atlas) {
+  const std::vector<Entry> pair = entry.list(2);
+  const std::string name = pair[0].string();
+  const auto chart = std::find_if(atlas.charts.begin(), atlas.charts.end(),
+                                  [&](const Chart& candidate) { return candidate.name == name; });
+  if (chart == atlas.charts.end()) pair[0].fail("there is no chart \"" + name + "\"");
+  const std::uint64_t inequality = pair[1].count(), known = chart->inequalities ? chart->inequalities->codim() : 0;
+  if (inequality >= known) {
+    pair[1].fail("chart \"" + name + "\" has " + std::to_string(known) + " inequalities, numbered from 0");
+  }
+  return {static_cast<int>(chart - atlas.charts.begin()), static_cast<int>(inequality)};
+}
+
+ChartAtlas read_charts(const Entry& root) {
+  ChartAtlas atlas;
+  atlas.variables = root.at("variables").strings();
+  root.at("variables").located([&] { check_variables(atlas.variables); });
+  for (const Entry& entry : root.at("charts").list()) {
+    atlas.charts.push_back(read_chart(atlas.variables, entry, atlas));
+  }
+  if (!root.has("seams")) return atlas;
+  for (const Entry& entry : root.at("seams").list()) {
+    entry.expect_keys({"from", "to", "transition"});
+    Seam seam;
+    std::tie(seam.first_chart, seam.first_inequality) = read_seam_side(entry.at("from"), atlas);
+    std::tie(seam.second_chart, seam.second_inequality) = read_seam_side(entry.at("to"), atlas);
+    seam.transition = read_coordinate_map(atlas.variables, entry.at("transition"), atlas.variables.size());
+    atlas.seams.push_back(std::move(seam));
+  }
+  return atlas;
+}
+
+/// A problem made of charts, which have boxes and seed points of their own.
+Problem parse_charts(const Entry& root) {
+  const bool projective = root.has("projective");
+  if (projective && root.has("charts")) root.at("charts").fail("\"projective\" makes its own charts");
+  const std::string source = projective ? "projective" : "charts";
+  for (const char* key :
+       {"equations", "named", "parametrization", "points", "inequalities", "box", "seed_points", "reach"}) {
+    if (root.has(key)) root.at(key).fail("does not go with \"" + source + "\", which say this for themselves");
+  }
+  for (const char* key : {"variables", "seams"}) {
+    if (projective && root.has(key)) root.at(key).fail("does not go with \"projective\", which makes its own");
+  }
+  Problem problem;
+  problem.source = Problem::Source::kCharts;
+  problem.atlas = projective ? read_projective(root.at("projective")) : read_charts(root);
+  problem.variables = problem.atlas->variables;
+  if (root.has("triangulation")) {
+    problem.triangulation = read_triangulation(root.at("triangulation"), problem.ambient_dim());
+  }
+  return problem;
+}
+
 /// Uniform in [0, 1) from one word, as the words are the same on every platform and the distributions of <random> are
 /// not.
 double uniform(std::mt19937_64& generator) { return static_cast<double>(generator() >> 11) * 0x1p-53; }
@@ -264,12 +372,16 @@ Problem parse_problem(std::string_view text, const std::string& name) {
   const Json json = parse_json(text, name);
   const Entry root(json, name, "");
   root.expect_keys({"variables", "equations", "inequalities", "box", "seed_points", "reach", "triangulation", "named",
-                    "parametrization", "points", "charts", "projective"});
-  for (const char* key : {"points", "charts", "projective"}) {
+                    "parametrization", "points", "charts", "seams", "projective"});
+  if (root.has("charts") || root.has("projective")) return parse_charts(root);
+  if (root.has("seams")) root.at("seams").fail("seams are between \"charts\"");
+  for (const char* key : {"points"}) {
     if (root.has(key)) root.at(key).fail("this version does not support it yet");
   }
   if (root.has("equations") + root.has("named") + root.has("parametrization") != 1) {
-    root.fail("exactly one of the keys \"equations\", \"named\" and \"parametrization\" is needed");
+    root.fail(
+        "exactly one of the keys \"equations\", \"named\", \"parametrization\", \"charts\" and \"projective\" is "
+        "needed");
   }
 
   Problem problem;
@@ -298,7 +410,7 @@ Problem parse_problem(std::string_view text, const std::string& name) {
   if (root.has("inequalities")) {
     const Entry entry = root.at("inequalities");
     problem.inequalities = read_inequalities(problem.variables, entry);
-    problem.inequality_texts = read_texts(entry);
+    problem.inequality_texts = entry.strings();
   }
   if (root.has("box")) {
     problem.box.clear();
@@ -331,6 +443,7 @@ Problem read_problem(const std::string& path) {
 
 Submanifold submanifold_of(const Problem& problem) {
   if (problem.submanifold) return *problem.submanifold;
+  if (problem.atlas) throw InvalidInput("charts are traced and glued; a submanifold needs its closest points");
   std::vector<double> seeds;
   ImplicitManifoldOptions options;
   if (!problem.box.empty()) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <coxeter/triangulation.h>
+#include <whitney/chart_atlas.h>
 #include <whitney/function.h>
 #include <whitney/submanifold.h>
 
@@ -31,7 +32,7 @@ struct TriangulationSpec {
 
 /// What PROBLEM.json says (its format: docs of the program).
 struct Problem {
-  enum class Source { kEquations, kNamed, kParametrization };
+  enum class Source { kEquations, kNamed, kParametrization, kCharts };
 
   Source source = Source::kEquations;
   std::vector<std::string> variables{};         ///< d names; where the file gives none: x1 .. xd
@@ -40,13 +41,18 @@ struct Problem {
   std::vector<std::string> inequality_texts{};  ///< m, as in the file
   /// The closest-point oracle: kParametrization, and kNamed where it is known. With the file's reach, if it gives one.
   std::optional<Submanifold> submanifold{};
+  /// Charts to be traced one by one and glued: kCharts, from "charts" or "projective". Then it alone has equations,
+  /// boxes and seed points; those of the problem are empty.
+  std::optional<ChartAtlas> atlas{};
   std::vector<std::array<double, 2>> box{};        ///< d x (lower, upper), or empty: none was given, and none is known
   std::vector<std::vector<double>> seed_points{};  ///< m x d; empty: to be searched for
   std::optional<double> reach{};                   ///< what the caller can prove, a length > 0
   TriangulationSpec triangulation{};
 
-  int ambient_dim() const { return function ? function->ambient_dim() : submanifold->ambient_dim(); }
-  int codim() const { return function ? function->codim() : submanifold->codim(); }
+  int ambient_dim() const {
+    return atlas ? atlas->ambient_dim() : function ? function->ambient_dim() : submanifold->ambient_dim();
+  }
+  int codim() const { return atlas ? atlas->codim() : function ? function->codim() : submanifold->codim(); }
 };
 
 /// Reads a problem file: JSON with // comments. A number may be written as a constant expression, "2*pi".
@@ -61,7 +67,8 @@ Problem parse_problem(std::string_view text, const std::string& name);
 
 /// The submanifold of a problem, with the file's reach if it gives one: problem.submanifold, or else f = 0 as an
 /// implicit manifold (whose foot is a local one), from the file's seed points or, without them, from points found in
-/// the box. Throws InvalidInput when there are neither, or none is found, and where the equations leave no dimension.
+/// the box. Throws InvalidInput when there are neither, or none is found, where the equations leave no dimension, and
+/// for charts, which have no closest points.
 Submanifold submanifold_of(const Problem& problem);
 
 /// The triangulation of R^d: type and edge_length (> 0, takes the place of spec.edge_length), rotated, then shifted by
