@@ -2,6 +2,7 @@
 #pragma once
 
 #include <coxeter/facets.h>
+#include <coxeter/short_faces.h>
 #include <coxeter/simplex.h>
 #include <coxeter/simplex_writer.h>
 
@@ -213,6 +214,8 @@ class FaceEnumeration {
 /// that change. Throws InvalidInput unless 0 <= face_dim <= simplex.dim().
 template <class Visitor>
 bool for_each_face(const Simplex& simplex, int face_dim, Visitor&& visit) {
+  if (detail::is_short(simplex) && face_dim >= 0 && face_dim <= simplex.dim())
+    return detail::ShortFaces(simplex, face_dim).run(visit);
   if (face_dim >= 0 && face_dim == simplex.dim() - 1) return detail::visit_facets(simplex, visit);
   return detail::FaceEnumeration(simplex, face_dim).run(visit);
 }
