@@ -95,4 +95,16 @@ inline void widen_nibbles(NibblePair pair, const std::uint16_t* increments, std:
 #endif
 }
 
+/// Writes sixteen numbers as values of 16 bits, each plus the increment.
+inline void widen_nibbles(Nibbles numbers, std::uint16_t increment, std::uint16_t* to) {
+#if defined(__AVX2__)
+  __m256i lanes = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(static_cast<long long>(numbers)));
+  lanes = _mm256_and_si256(_mm256_or_si256(lanes, _mm256_slli_epi32(lanes, 12)), _mm256_set1_epi32(0x000f000f));
+  lanes = _mm256_add_epi16(lanes, _mm256_set1_epi16(static_cast<short>(increment)));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), lanes);
+#else
+  for (int i = 0; i < 16; ++i) to[i] = static_cast<std::uint16_t>((numbers >> (4 * i) & 15) + increment);
+#endif
+}
+
 }  // namespace whitney::coxeter

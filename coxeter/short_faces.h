@@ -58,7 +58,7 @@ class ShortFaces {
   Nibbles tail(int v) const { return list_members(around_ ^ simplex_.before[v]) << shifts_[v]; }
   /// The shares of the same when this is the part number q of the face, and the last one.
   NibblePair share(int v, int end, int q) const {
-    return out_.partition(block(v, end), static_cast<Nibbles>(shifts_[end] / 4 - 1) << (4 * q));
+    return out_.partition(block(v, end), static_cast<Nibbles>((shifts_[end] >> 2) - 1) << (4 * q));
   }
   NibblePair tail_share(int v) const {
     return out_.partition(tail(v), static_cast<Nibbles>(simplex_.num_elements - 1) << (4 * face_dim_));
