@@ -6,11 +6,12 @@
 #include <gtest/gtest.h>
 #include <tests/coxeter/brute_force.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <cstring>
 #include <random>
-#include <set>
 #include <utility>
 #include <vector>
 
