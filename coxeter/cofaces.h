@@ -2,6 +2,7 @@
 #pragma once
 
 #include <coxeter/cofacets.h>
+#include <coxeter/short_cofaces.h>
 #include <coxeter/simplex.h>
 #include <coxeter/simplex_writer.h>
 
@@ -104,6 +105,8 @@ class CofaceEnumeration {
 /// simplex.dim() <= coface_dim <= simplex.ambient_dim(), LatticeOverflow when a base vertex leaves the range of int32.
 template <class Visitor>
 bool for_each_coface(const Simplex& simplex, int coface_dim, Visitor&& visit) {
+  if (detail::is_short(simplex) && coface_dim >= simplex.dim() && coface_dim <= simplex.ambient_dim())
+    return detail::ShortCofaces(simplex, coface_dim).run(visit);
   if (coface_dim == simplex.dim() + 1 && detail::can_visit_cofacets(simplex))
     return detail::visit_cofacets(simplex, visit);
   return detail::CofaceEnumeration(simplex, coface_dim).run(visit);

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <coxeter/facets.h>
+#include <coxeter/nibbles.h>
+#include <coxeter/short_faces.h>
 #include <coxeter/simplex.h>
 #include <coxeter/simplex_writer.h>
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
@@ -38,6 +41,8 @@ class FaceEnumeration {
       if (face_dim_ == 0) {  // a vertex: one part
         std::iota(out_.elements, out_.elements + num_elements_, std::uint16_t{0});
         go_on = visit_continues(visit, face_);
+      } else if (face_dim_ == 1 && width_ != 0 && kFastNibbles) {
+        go_on = visit_edges(visit);
       } else if (drops_cuts(num_dropped)) {
         go_on = drop_cuts(1, num_dropped, 0, 0, visit);
       } else if (width_ == 0) {
@@ -59,6 +64,30 @@ class FaceEnumeration {
   /// keeping has (L+1) / (L-k+1), and a node of the latter costs about half, with narrow rows a quarter.
   bool drops_cuts(int num_dropped) const {
     return num_dropped == 1 || (width_ == kNarrow ? 4 : 2) * num_dropped < face_dim_;
+  }
+
+  /// The edges of a turn, d <= 31: each of the two parts is the list of a set, which costs less than the tables below
+  /// when every block is used once.
+  template <class Visitor>
+  bool visit_edges(Visitor& visit) {
+    const int n = static_cast<int>(num_elements_);
+    const Nibbles all[2] = {nibbles_below(std::min(n, 16)), nibbles_below(std::max(n - 16, 0))};
+    Nibbles set[2] = {0, 0};  // of the elements below 16, and of the others less 16
+    auto list = [](Nibbles low, Nibbles high, std::uint16_t* to) {
+      widen_nibbles(list_members(low), 0, to);
+      widen_nibbles(list_members(high), 16, to + std::popcount(low) / 4);
+    };
+    for (int cut = 1; cut <= num_cuts_; ++cut) {
+      const std::uint16_t end = ends_[cut - 1];
+      for (std::size_t i = part_begin(cut - 1); i < end; ++i) set[elements_[i] / 16] |= nibble_at(elements_[i] % 16);
+      // What each list writes too much is overwritten by what follows.
+      list(set[0], set[1], out_.elements);
+      list(all[0] ^ set[0], all[1] ^ set[1], out_.elements + end);
+      out_.ends[0] = end;
+      out_.ends[1] = static_cast<std::uint16_t>(n);
+      if (!visit_continues(visit, face_)) return false;
+    }
+    return true;
   }
 
   /// Drops `todo` of the cuts from `first` on; `dropped` were dropped before it. `start`: where the block begins that
@@ -213,6 +242,8 @@ class FaceEnumeration {
 /// that change. Throws InvalidInput unless 0 <= face_dim <= simplex.dim().
 template <class Visitor>
 bool for_each_face(const Simplex& simplex, int face_dim, Visitor&& visit) {
+  if (detail::is_short(simplex) && face_dim >= 0 && face_dim <= simplex.dim())
+    return detail::ShortFaces(simplex, face_dim).run(visit);
   if (face_dim >= 0 && face_dim == simplex.dim() - 1) return detail::visit_facets(simplex, visit);
   return detail::FaceEnumeration(simplex, face_dim).run(visit);
 }

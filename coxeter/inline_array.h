@@ -27,10 +27,16 @@ class InlineArray {
   InlineArray(std::size_t size, const T& value) : InlineArray(size) { std::fill_n(data(), size, value); }
   InlineArray(const T* first, const T* last) { assign(first, last); }
   InlineArray(std::initializer_list<T> values) { assign(values.begin(), values.end()); }
-  InlineArray(const InlineArray& other) { assign(other.begin(), other.end()); }
+  InlineArray(const InlineArray& other) { *this = other; }
   InlineArray(InlineArray&& other) noexcept { *this = std::move(other); }
   InlineArray& operator=(const InlineArray& other) {
-    if (this != &other) assign(other.begin(), other.end());
+    if (this == &other) return *this;
+    if (kCopiesWhole && !heap_ && !other.heap_) {
+      size_ = other.size_;
+      std::memcpy(inline_, other.inline_, sizeof inline_);
+    } else {
+      assign(other.begin(), other.end());
+    }
     return *this;
   }
   InlineArray& operator=(InlineArray&& other) noexcept {
@@ -38,7 +44,12 @@ class InlineArray {
     size_ = other.size_;
     capacity_ = other.capacity_;
     heap_ = std::move(other.heap_);
-    if (!heap_) copy(other.inline_, other.inline_ + size_, inline_);
+    if (!heap_) {
+      if constexpr (kCopiesWhole)
+        std::memcpy(inline_, other.inline_, sizeof inline_);
+      else
+        copy(other.inline_, other.inline_ + size_, inline_);
+    }
     other.size_ = 0;
     other.capacity_ = N;
     return *this;
@@ -66,7 +77,7 @@ class InlineArray {
     size_ = size;
   }
   /// The range must not lie in this array.
-  void assign(const T* first, const T* last) {
+  [[gnu::noinline]] void assign(const T* first, const T* last) {
     resize_for_overwrite(static_cast<std::size_t>(last - first));
     copy(first, last, data());
   }
@@ -83,6 +94,9 @@ class InlineArray {
   }
 
  private:
+  // A copy of fixed size is a few instructions, whatever it holds.
+  static constexpr bool kCopiesWhole = N * sizeof(T) <= 128;
+
   static void copy(const T* first, const T* last, T* to) {
     if (first != last) std::memcpy(to, first, static_cast<std::size_t>(last - first) * sizeof(T));
   }

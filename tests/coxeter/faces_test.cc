@@ -38,7 +38,7 @@ TEST(Faces, AreTheSubsetsOfTheVertices) {
 
 TEST(Faces, LargePartsInHigherDimension) {
   std::mt19937 gen(2);
-  for (const auto& [d, m] : {std::pair{15, 13}, {30, 11}, {60, 13}, {400, 9}})
+  for (const auto& [d, m] : {std::pair{15, 13}, {16, 12}, {30, 11}, {31, 12}, {60, 13}, {400, 9}})
     for (int k = 0; k <= m; ++k) {
       const Simplex s = random_simplex(d, m, gen);
       std::unordered_set<Simplex> faces;
