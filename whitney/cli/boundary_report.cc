@@ -19,12 +19,6 @@ std::string number(double value) {
   return text;
 }
 
-std::string point_text(const std::vector<double>& point) {
-  std::string text = "(";
-  for (std::size_t c = 0; c < point.size(); ++c) text += (c ? ", " : "") + number(point[c]);
-  return text + ")";
-}
-
 std::string inequality_text(int j, const Problem& problem) {
   const int m = problem.inequalities ? problem.inequalities->codim() : 0;
   if (j < m) return problem.inequality_texts[j] + " = 0";
@@ -33,6 +27,12 @@ std::string inequality_text(int j, const Problem& problem) {
 }
 
 }  // namespace
+
+std::string point_text(const std::vector<double>& point) {
+  std::string text = "(";
+  for (std::size_t c = 0; c < point.size(); ++c) text += (c ? ", " : "") + number(point[c]);
+  return text + ")";
+}
 
 BoundaryStatistics boundary_statistics(const Strata& strata, const SimplicialMesh& mesh,
                                        const CutRegularity& regularity, const Problem& problem) {

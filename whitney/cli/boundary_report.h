@@ -19,6 +19,9 @@ BoundaryStatistics boundary_statistics(const Strata& strata, const SimplicialMes
 /// The same in a few lines of text, each ending in a newline.
 std::string describe(const BoundaryStatistics& boundary);
 
+/// "(1, 0.5)", six digits.
+std::string point_text(const std::vector<double>& point);
+
 /// Writes every stratum to a file of its own, "name_3.vtu" for stratum 3 and the pattern "name.vtu"; those of a
 /// dimension that the format cannot hold are left out. Returns the names; appends what went wrong to `failed`, a line
 /// each.

@@ -51,14 +51,16 @@ std::string write_outputs(const std::vector<std::string>& outputs, const Simplic
   return failed;
 }
 
-std::optional<Box> box_of(const Problem& problem) {
-  if (problem.box.empty()) return std::nullopt;
+std::optional<Box> to_box(const std::vector<std::array<double, 2>>& sides) {
+  if (sides.empty()) return std::nullopt;
   Box box;
-  for (const auto& [lower, upper] : problem.box) {
+  for (const auto& [lower, upper] : sides) {
     box.lower.push_back(lower);
     box.upper.push_back(upper);
   }
   return box;
 }
+
+std::optional<Box> box_of(const Problem& problem) { return to_box(problem.box); }
 
 }  // namespace whitney::cli

@@ -6,6 +6,7 @@
 #include <whitney/mesh.h>
 #include <whitney/trace.h>
 
+#include <array>
 #include <chrono>
 #include <optional>
 #include <string>
@@ -46,6 +47,9 @@ void check_outputs(const std::vector<std::string>& outputs, const std::string& s
 std::string write_outputs(const std::vector<std::string>& outputs, const SimplicialMesh& mesh,
                           const PolygonMesh* polygons, const MeshWriteOptions& options);
 
+/// The box of a problem, or nothing when it has none.
 std::optional<Box> box_of(const Problem& problem);
+/// The same of a list of sides.
+std::optional<Box> to_box(const std::vector<std::array<double, 2>>& sides);
 
 }  // namespace whitney::cli

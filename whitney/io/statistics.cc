@@ -46,6 +46,35 @@ Json strata_json(const BoundaryStatistics& boundary) {
   return list;
 }
 
+Json charts_json(const std::vector<ChartStatistics>& charts) {
+  Json list = Json::array();
+  for (const ChartStatistics& chart : charts) {
+    Json strata = Json::object(), out;
+    for (const auto& [dim, count] : chart.strata_per_dim) strata[std::to_string(dim)] = count;
+    out["name"] = chart.name;
+    out["simplices"] = chart.simplices;
+    out["strata_per_dim"] = strata;
+    out["smallest_singular_value"] = chart.smallest_singular_value;
+    out["singular_points"] = chart.singular_points;
+    list.push_back(std::move(out));
+  }
+  return list;
+}
+
+Json seams_json(const std::vector<SeamStatistics>& seams) {
+  Json list = Json::array();
+  for (const SeamStatistics& seam : seams) {
+    Json out;
+    out["charts"] = {seam.first, seam.second};
+    out["corners"] = seam.corners;
+    out["arcs"] = seam.arcs;
+    out["loops"] = seam.loops;
+    out["worst_distance"] = seam.worst_distance;
+    list.push_back(std::move(out));
+  }
+  return list;
+}
+
 Json quality_json(const ComplexQuality& q) {
   Json out;
   out["thickness_min"] = q.thickness_min;
@@ -85,6 +114,10 @@ std::string to_json(const Statistics& s) {
     out["smallest_singular_value"] = s.boundary->smallest_singular_value;
     out["smallest_singular_point"] = s.boundary->smallest_singular_point;
     out["singular_points"] = s.boundary->singular_points;
+  }
+  if (!s.charts.empty()) {
+    out["charts"] = charts_json(s.charts);
+    out["seams"] = seams_json(s.seams);
   }
   out["is_closed_manifold"] = t.manifold == ManifoldKind::kNotChecked ? Json(nullptr) : Json(t.is_closed_manifold());
   out["is_manifold"] = t.manifold == ManifoldKind::kNotChecked ? Json(nullptr) : Json(t.is_manifold());

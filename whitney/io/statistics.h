@@ -46,6 +46,22 @@ struct BoundaryStatistics {
   std::vector<std::vector<double>> singular_points;
 };
 
+/// What was traced in one chart.
+struct ChartStatistics {
+  std::string name;
+  std::size_t simplices = 0;  ///< of dimension k that the zero set meets
+  std::map<int, std::size_t> strata_per_dim;
+  double smallest_singular_value = 1;  ///< see CutRegularity
+  std::vector<std::vector<double>> singular_points;
+};
+
+/// What was glued at a seam of two charts.
+struct SeamStatistics {
+  std::string first, second;  ///< names of the charts
+  std::size_t corners = 0, arcs = 0, loops = 0;
+  double worst_distance = 0;  ///< between the two sides, a length in the second chart
+};
+
 /// What a run of the program reports; the keys of the JSON file are the names of the members.
 struct Statistics {
   int ambient_dim = 0, intrinsic_dim = 0;
@@ -61,7 +77,9 @@ struct Statistics {
   std::string stop_reason = "none";
   std::optional<CertificateStatistics> certificate{};
   std::optional<BoundaryStatistics> boundary{};  ///< when there are inequalities, or the box cut something off
-  std::optional<ComplexQuality> quality{};       ///< of the mesh that is written; angles in radians
+  std::vector<ChartStatistics> charts{};         ///< of a manifold made of charts; ambient_dim is that of the charts
+  std::vector<SeamStatistics> seams{};
+  std::optional<ComplexQuality> quality{};  ///< of the mesh that is written; angles in radians
 };
 
 /// JSON text, one key a line, ending in a newline. Adds peak_rss_bytes of this process.
