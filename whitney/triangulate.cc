@@ -198,9 +198,11 @@ TriangulateResult triangulate(const Submanifold& manifold, const Bending& bendin
       ++result.seeds_dropped;
   }
   const auto find_starts = [&](NearSimplices& near) {
+    const perturbation::Region region = make_region();
     std::vector<std::uint32_t> starts;
     for (std::size_t i = 0; i < feet.size() / d; ++i) {
       const std::uint32_t s = perturbation::find_start(near, std::span<const double>(feet).subspan(i * d, d));
+      if (region && !region(near, s)) continue;
       if (std::find(starts.begin(), starts.end(), s) == starts.end()) starts.push_back(s);
     }
     return starts;

@@ -34,7 +34,7 @@ std::vector<double> seeds_of(Problem& problem, const std::string& file) {
   if (problem.seed_points.empty() && !problem.submanifold) {
     const std::optional<Box> box = box_of(problem);
     if (!box) throw InvalidInput(file + ": give seed_points, or a box in which they can be searched for");
-    const FoundSeeds found = find_seeds(*problem.function, *box);
+    const FoundSeeds found = find_seeds(*problem.function, Domain(problem.ambient_dim(), problem.inequalities, box));
     const auto d = static_cast<std::size_t>(problem.ambient_dim());
     for (std::size_t at = 0; at + d <= found.points.size(); at += d)
       problem.seed_points.emplace_back(&found.points[at], &found.points[at] + d);
@@ -78,7 +78,8 @@ CertificateStatistics certificate_statistics(const TriangulateResult& result, co
   out.curvature_radius = bending.curvature_radius;
   out.reach_source = to_string(bending.source);
   out.edge_length_over_reach = result.edge_length / bending.reach;
-  if (report.verdict == Verdict::kCertified) out.hausdorff_bound = result.hausdorff_bound;
+  if (report.verdict == Verdict::kCertified && !result.cut) out.hausdorff_bound = result.hausdorff_bound;
+  out.cut = result.cut;
   out.reason = report.reason;
   if (report.witness) out.witness = report.witness->barycentre;
   return out;
@@ -89,13 +90,16 @@ std::string describe_verdict(const TriangulateResult& result, const Bending& ben
   const perturbation::CertificateReport& report = result.certificate;
   std::ostringstream text;
   text.precision(4);
-  text << to_string(report.verdict) << ": ";
+  text << to_string(report.verdict) << (result.cut ? " away from the boundary: " : ": ");
   if (report.verdict == Verdict::kCertified) {
-    text << "the complex is homeomorphic to the manifold, given its reach " << bending.reach << " ("
-         << to_string(bending.source) << ")";
+    text << "the complex is homeomorphic to "
+         << (result.cut ? "the part of the manifold in its simplices, which end just beyond the inequalities"
+                        : "the manifold")
+         << ", given its reach " << bending.reach << " (" << to_string(bending.source) << ")";
     if (bending.source == Bending::Source::kEstimated) text << ": an estimate, so this is no proof";
-    text << "\n  margins: worst " << report.margin_min << ", median " << report.margin_median
-         << "; Hausdorff distance at most " << result.hausdorff_bound << "\n";
+    text << "\n  margins: worst " << report.margin_min << ", median " << report.margin_median;
+    if (!result.cut) text << "; Hausdorff distance at most " << result.hausdorff_bound;
+    text << "\n";
   } else {
     text << report.reason << "\n";
     text << "  margins: worst " << report.margin_min << ", median " << report.margin_median
@@ -183,6 +187,7 @@ int run_triangulate(const TriangulateArguments& arguments) {
                                                                   : TriangulateOptions::Scheme::kRepair;
   options.triangulate.rng_seed = problem.triangulation.rng_seed;
   options.triangulate.max_rounds = arguments.max_rounds;
+  options.triangulate.inequalities = problem.inequalities;
   options.triangulate.box = box_of(problem);
   options.triangulate.max_simplices = arguments.max_simplices;
   options.triangulate.time_limit = arguments.time_limit;
@@ -211,9 +216,11 @@ int run_triangulate(const TriangulateArguments& arguments) {
   statistics.seconds["complex"] = result.seconds_complex;
   watch.lap();
   if (result.certificate.simplices == 0)
-    throw InvalidInput(arguments.problem + ": no simplex near the " + std::to_string(seeds.size() / d) +
-                       " seed points meets the manifold (" + std::to_string(result.seeds_dropped) +
-                       " of them have no closest point on it)");
+    throw InvalidInput(
+        arguments.problem + ": no simplex near the " + std::to_string(seeds.size() / d) +
+        " seed points meets the manifold (" + std::to_string(result.seeds_dropped) +
+        " of them have no closest point on it)" +
+        (problem.inequalities ? "; seeds outside the inequalities do not count: give seed_points inside" : ""));
 
   SimplicialMesh mesh =
       arguments.mesh == "pulled" ? pulled_subdivision(result.complex) : barycentric_subdivision(result.complex);

@@ -24,6 +24,7 @@ Json certificate_json(const CertificateStatistics& c) {
   out["reach_source"] = c.reach_source;
   out["edge_length_over_reach"] = c.edge_length_over_reach;
   out["hausdorff_bound"] = c.hausdorff_bound ? Json(*c.hausdorff_bound) : Json(nullptr);
+  out["away_from_boundary"] = c.cut;
   out["reason"] = c.reason.empty() ? Json(nullptr) : Json(c.reason);
   out["witness"] = c.witness ? Json(*c.witness) : Json(nullptr);
   return out;

@@ -24,6 +24,7 @@ struct CertificateStatistics {
   std::string reach_source;                ///< "proven", "caller", "estimated"
   double edge_length_over_reach = 0;
   std::optional<double> hausdorff_bound;       ///< between K and M (a length); null when it is not proved
+  bool cut = false;                            ///< the verdict is about the part of M near the inequalities' domain
   std::string reason;                          ///< why it is not certified
   std::optional<std::vector<double>> witness;  ///< where: d coordinates
 };

@@ -166,6 +166,26 @@ void write_curve(AtomicFile& file, const MeshView& mesh, const Ball& ball) {
   }
 }
 
+/// The strata of a surface: thin tubes along its boundary, balls at the corners.
+void write_strata(AtomicFile& file, const MeshView& mesh, const Ball& ball) {
+  const auto place = [&](std::size_t i) {
+    const auto p = mesh.position(i);
+    return vector_text((p[0] - ball.center[0]) / ball.radius, (p[1] - ball.center[1]) / ball.radius,
+                       (p[2] - ball.center[2]) / ball.radius);
+  };
+  const std::string ink = " pigment { color " + color_text({0.12, 0.14, 0.2}) + " } }\n";
+  const std::string thin = short_number(kCurveRadius / 3), thick = short_number(kCurveRadius);
+  for (const MeshStratum& stratum : mesh.strata) {
+    if (stratum.dim > 1) continue;
+    for (const std::uint32_t v : stratum.simplices)
+      file.write("sphere { " + place(v) + ", " + (stratum.dim == 0 ? thick : thin) + ink);
+    for (std::size_t i = 0; stratum.dim == 1 && i < stratum.simplices.size(); i += 2) {
+      const std::string a = place(stratum.simplices[i]), b = place(stratum.simplices[i + 1]);
+      if (a != b) file.write("cylinder { " + a + ", " + b + ", " + thin + ink);
+    }
+  }
+}
+
 }  // namespace
 
 void write_pov(AtomicFile& file, const MeshView& mesh) {
@@ -177,6 +197,7 @@ void write_pov(AtomicFile& file, const MeshView& mesh) {
   } else {
     write_surface(file, mesh, ball);
   }
+  write_strata(file, mesh, ball);
 }
 
 }  // namespace whitney::io
