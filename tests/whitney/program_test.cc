@@ -155,6 +155,94 @@ TEST_F(Program, TheBoxCutsAndItSaysSo) {
   EXPECT_TRUE(says("reaches the box") && says("2 boundary components")) << output_;
 }
 
+constexpr const char* kOctant = R"({"variables": ["x","y","z"], "equations": ["x^2+y^2+z^2-1"],
+  "inequalities": ["x", "y", "z"], "box": [[-2,2],[-2,2],[-2,2]], "triangulation": {"edge_length": 0.3}})";
+
+TEST_F(Program, StrataOfTheOctant) {
+  ASSERT_EQ(run("trace " + problem(kOctant) + " -o " + path("o.vtu") + " -o " + path("o.ply") + " -o " + path("o.obj") +
+                " --strata " + path("piece.noff") + " --stats " + path("s.json")),
+            0)
+      << output_;
+  EXPECT_TRUE(says("1 of dimension 2, 3 of dimension 1, 3 of dimension 0")) << output_;
+  const std::string stats = content(path("s.json"));
+  for (const char* key : {"\"boundary_components\": 1", "\"cut_components\": 0", "\"strata\"", "\"x = 0\"",
+                          "\"smallest_singular_value\"", "\"singular_points\": []"})
+    EXPECT_NE(stats.find(key), std::string::npos) << key;
+  // The whole with its labels reads back as the whole; each stratum is a disc, an arc or a point.
+  for (const char* file : {"o.vtu", "o.ply", "o.obj"}) {
+    EXPECT_EQ(run("check " + path(file)), 0) << output_;
+    EXPECT_TRUE(says("orientable surface with 1 boundary component, 1 component, Euler characteristic 1")) << output_;
+  }
+  for (int s = 0; s < 7; ++s) {
+    EXPECT_EQ(run("check " + path("piece_" + std::to_string(s) + ".noff")), 0) << output_;
+    EXPECT_TRUE(says("Euler characteristic 1")) << output_;
+  }
+  EXPECT_FALSE(fs::exists(path("piece_7.noff")));
+  EXPECT_NE(content(path("o.obj")).find("g stratum_6"), std::string::npos);
+  EXPECT_NE(content(path("o.vtu")).find("Name=\"stratum\""), std::string::npos);
+  EXPECT_NE(content(path("o.ply")).find("element edge"), std::string::npos);
+}
+
+TEST_F(Program, ASingularCutIsStatusThreeAndNamesThePlace) {
+  const std::string torus = R"({"variables": ["a","b","c","d"], "equations": ["a^2+b^2-1", "c^2+d^2-1"],
+    "inequalities": ["4 - (a-1)^2 - b^2 - (c-1)^2 - d^2"], "box": [[-2,2],[-2,2],[-2,2],[-2,2]],
+    "triangulation": {"edge_length": 0.3}})";
+  EXPECT_EQ(run("trace " + problem(torus) + " -o " + path("t.ply") + " --stats " + path("s.json")), 3);
+  EXPECT_TRUE(says("SINGULAR at (")) << output_;
+  EXPECT_TRUE(fs::exists(path("t.ply")));
+  EXPECT_EQ(content(path("s.json")).find("\"singular_points\": []"), std::string::npos);
+}
+
+TEST_F(Program, ChartsAreGlued) {
+  ASSERT_EQ(run("trace " + problem(R"({"projective": {"variables": ["x","y","z"], "equations": ["x^3*y+y^3*z+z^3*x"]},
+                                       "triangulation": {"edge_length": 0.25}})") +
+                " -o " + path("k.noff") + " --stats " + path("s.json")),
+            0)
+      << output_;
+  EXPECT_TRUE(says("closed orientable surface, 1 component, Euler characteristic -4, genus 3")) << output_;
+  EXPECT_NE(content(path("s.json")).find("\"seams\""), std::string::npos);
+  EXPECT_EQ(run("check " + path("k.noff")), 0);
+  EXPECT_TRUE(says("genus 3") && says("R^9")) << output_;
+  // Clebsch's cubic surface: a one-sided surface from equations.
+  ASSERT_EQ(run("trace " + problem(R"({"projective": {"variables": ["x","y","z","w"], "field": "real",
+                                       "equations": ["x^3+y^3+z^3+w^3-(x+y+z+w)^3"]},
+                                       "triangulation": {"edge_length": 0.1}})")),
+            0)
+      << output_;
+  EXPECT_TRUE(says("closed non-orientable surface, 1 component, Euler characteristic -5") && says("H1 = Z^6 + Z/2"))
+      << output_;
+}
+
+TEST_F(Program, ChartsThatDoNotFitTogetherAreRefused) {
+  const std::string arguments = " -o " + path("x.off");
+  const std::string quartic = R"({"projective": {"variables": ["x","y","z"], "equations": ["x^3*y+y^3*z+z^3*x"]},
+    "triangulation": {"edge_length": 0.9}})";
+  EXPECT_EQ(run("trace " + problem(quartic) + arguments), 3) << output_;
+  EXPECT_TRUE(says("do not fit together") && says("smaller edge length")) << output_;
+  EXPECT_FALSE(fs::exists(path("x.off")));
+  EXPECT_EQ(run("trace " + problem(quartic) + " --edge-length 0.3 --max-simplices 2000" + arguments), 2) << output_;
+  EXPECT_TRUE(fs::exists(path("x.off")));
+  EXPECT_EQ(run("trace " + problem(quartic) + " --mesh cells" + arguments), 1);
+  EXPECT_EQ(run("triangulate " + problem(quartic) + arguments), 1);
+  EXPECT_EQ(run("trace " + problem(R"({"projective": {"variables": ["x","y","z"], "equations": ["x^3*y+y^2"]}})")), 1);
+  EXPECT_TRUE(says("projective")) << output_;
+}
+
+TEST_F(Program, CertifiedAwayFromTheBoundary) {
+  ASSERT_EQ(run("triangulate " + problem(R"({"variables": ["x","y","z"], "equations": ["x^2+y^2-z^2-1"],
+                "inequalities": ["1-z^2"], "box": [[-5,5],[-5,5],[-5,5]], "reach": 1,
+                "triangulation": {"edge_length": 0.4}})") +
+                " --stats " + path("s.json")),
+            0)
+      << output_;
+  EXPECT_TRUE(says("certified away from the boundary") && says("Euler characteristic 0")) << output_;
+  EXPECT_NE(content(path("s.json")).find("\"away_from_boundary\": true"), std::string::npos);
+  EXPECT_EQ(run("triangulate " + problem(R"({"named": {"name": "klein_bottle"}, "inequalities": ["-1 - x1^2"],
+                                             "triangulation": {"edge_length": 0.4}})")),
+            1);
+  EXPECT_TRUE(says("outside the inequalities")) << output_;
+}
+
 TEST_F(Program, AMeshThatIsNoManifoldIsStatusThree) {
   std::ofstream(path("book.off")) << "OFF\n5 3 0\n0 0 0\n1 0 0\n0 1 0\n0 -1 0\n0 0 1\n3 0 1 2\n3 0 1 3\n3 0 1 4\n";
   EXPECT_EQ(run("check " + path("book.off")), 3);

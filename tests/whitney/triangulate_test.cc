@@ -213,6 +213,41 @@ TEST(Triangulate, StopsAtItsLimits) {
   EXPECT_NE(result.certificate.verdict, Verdict::kCertified);
 }
 
+TEST(Triangulate, APartNearADomainIsCertifiedByItself) {
+  const double edge_length = 0.3;
+  const Submanifold M = closed_form::sphere(2, 3);
+  TriangulateOptions options;
+  options.inequalities = make_function(3, 1, [](auto x, auto v) { v[0] = x[2] - 0.1; });
+  const auto triangulation = moved_coxeter(3, edge_length);
+  const std::vector<double> pole{0, 0, 1};
+  const TriangulateResult cap = triangulate(M, *M.bending(), triangulation, pole, options);
+  EXPECT_EQ(cap.certificate.verdict, Verdict::kCertified) << cap.certificate.reason;
+  EXPECT_TRUE(cap.cut);
+  const SimplicialMesh K = barycentric_subdivision(cap.complex);
+  const Topology t = topology_of(K);
+  EXPECT_TRUE(t.is_manifold());
+  EXPECT_EQ(t.euler_characteristic, 1);
+  EXPECT_EQ(t.boundary_components, 1u);
+  // It covers the cap and ends less than an edge length beyond it.
+  for (std::size_t i = 2; i < K.points.size(); i += 3) EXPECT_GT(K.points[i], 0.1 - 2 * edge_length);
+  for (int i = 0; i < 400; ++i) {
+    const double z = 0.1 + 0.9 * (i + 0.5) / 400, angle = 2.4 * i, r = std::sqrt(1 - z * z);
+    const double x[3] = {r * std::cos(angle), r * std::sin(angle), z};
+    double nearest = 10;
+    for (std::size_t v = 0; v < K.num_points(); ++v) nearest = std::min(nearest, distance(x, &K.points[3 * v], 3));
+    EXPECT_LT(nearest, edge_length / 2);
+  }
+  // An inequality that M does not meet changes nothing; outside the domain there is nothing to find.
+  options.inequalities = make_function(3, 1, [](auto x, auto v) { v[0] = x[2] + 3; });
+  const TriangulateResult all = triangulate(M, *M.bending(), triangulation, pole, options);
+  EXPECT_FALSE(all.cut);
+  EXPECT_EQ(all.complex.points, triangulate(M, *M.bending(), triangulation, pole).complex.points);
+  options.inequalities = make_function(3, 1, [](auto x, auto v) { v[0] = x[2] - 3; });
+  EXPECT_EQ(triangulate(M, *M.bending(), triangulation, pole, options).certificate.simplices, 0u);
+  options.inequalities = make_function(3, 1, [](auto x, auto v) { v[0] = std::sqrt(x[2]); });
+  EXPECT_THROW(triangulate(M, *M.bending(), triangulation, pole, options), OracleError);
+}
+
 TEST(Triangulate, RejectsWrongArguments) {
   const Submanifold M = closed_form::sphere(1, 3);
   const auto triangulation = moved_coxeter(3, 0.3);
