@@ -17,13 +17,17 @@ void CrossingPoint::load(std::span<const double* const> columns) {
   kernel_.factor();
 }
 
-bool CrossingPoint::hit() {
+std::optional<bool> CrossingPoint::quick_hit() const {
   if (codim_ == 1) return (*columns_[0] > 0) != (*columns_[1] > 0);
-  if (kernel_.reliable(0)) {
-    double lowest = std::numeric_limits<double>::infinity();
-    for (int q = 0; q <= codim_; ++q) lowest = std::min(lowest, kernel_.weight(0, q));
-    if (std::abs(lowest) > 2 * kernel_.weight_error(0)) return lowest > 0;
-  }
+  if (!kernel_.reliable(0)) return std::nullopt;
+  double lowest = std::numeric_limits<double>::infinity();
+  for (int q = 0; q <= codim_; ++q) lowest = std::min(lowest, kernel_.weight(0, q));
+  if (!(std::abs(lowest) > 2 * kernel_.weight_error(0))) return std::nullopt;
+  return lowest > 0;
+}
+
+bool CrossingPoint::hit() {
+  if (const std::optional<bool> quick = quick_hit()) return *quick;
   ++exact_decisions_;
   return exactly_hit(columns_);
 }

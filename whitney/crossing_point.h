@@ -4,6 +4,7 @@
 #include <whitney/barycentric_kernel.h>
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -23,6 +24,8 @@ class CrossingPoint {
 
   /// Whether the simplex meets the zero set. What follows is for simplices that do.
   bool hit();
+  /// The same where floating point decides it, else nothing.
+  std::optional<bool> quick_hit() const;
   /// The vertex (its number) to be replaced by a further vertex w of a cofacet, given F(w).
   int leaving(const double* w);
   /// Whether the interpolant of one more component, its values at v_0..v_K, is below its target at the point: see

@@ -186,7 +186,7 @@ SimplicialMesh stratum_mesh(const SimplicialMesh& mesh, int stratum) {
   return out;
 }
 
-PolygonMesh polygon_mesh(const CellComplex& complex) {
+PolygonMesh polygon_mesh(const CellComplex& complex, const Strata* strata) {
   const int n = complex.intrinsic_dim;
   if (n > 2)
     throw InvalidInput("polygon_mesh: cells of dimension " + std::to_string(n) +
@@ -218,6 +218,11 @@ PolygonMesh polygon_mesh(const CellComplex& complex) {
       }
     }
     mesh.offsets.push_back(static_cast<std::uint32_t>(mesh.corners.size()));
+  }
+  if (strata != nullptr) {
+    const auto &of_points = strata->stratum_of[0], &of_cells = strata->stratum_of[n];
+    mesh.point_data.push_back({"stratum", 1, {of_points.begin(), of_points.end()}});
+    mesh.cell_data.push_back({"stratum", 1, {of_cells.begin(), of_cells.end()}});
   }
   return mesh;
 }

@@ -21,9 +21,9 @@ SimplicialMesh barycentric_subdivision(const CellComplex& complex, const Strata*
 /// Geometry), pulling.
 SimplicialMesh pulled_subdivision(const CellComplex& complex, const Strata* strata = nullptr);
 
-/// The cells themselves, for n = 1 (edges) and n = 2 (convex polygons, corners in cyclic order).
-/// Throws InvalidInput for n >= 3, where a cell is no list of corners.
-PolygonMesh polygon_mesh(const CellComplex& complex);
+/// The cells themselves, for n = 1 (edges) and n = 2 (convex polygons, corners in cyclic order). With strata,
+/// point_data and cell_data "stratum". Throws InvalidInput for n >= 3, where a cell is no list of corners.
+PolygonMesh polygon_mesh(const CellComplex& complex, const Strata* strata = nullptr);
 
 /// One closed stratum of a mesh that was made with strata, as a mesh of its own: the points it uses, in their order.
 /// For a stratum of dimension n, the simplices whose cell_data "stratum" is its number. point_data comes along. Throws

@@ -226,6 +226,7 @@ bool BoundaryTrace::others_near(const Simplex& simplex, const Corners& corners, 
 
 void BoundaryTrace::process(const Task& task, const InteriorVisitor& interior) {
   const Set& set = *task.set;
+  if (task.from_exit && set.size() == 1 && only_in(lattice_.mask_of_all(), set)) return;
   Corners corners;
   if (!load(task.simplex, corners)) return;
   const bool near = set.size() > 1 || others_near(task.simplex, corners, set);
@@ -238,11 +239,15 @@ void BoundaryTrace::process(const Task& task, const InteriorVisitor& interior) {
     if (task.from_exit) break;
     Set released = set;
     released.erase(released.begin() + position_in(set, i));
-    for (int removed = 0; removed <= task.simplex.dim(); ++removed) {
-      CrossingPoint& point = load_map(corners, released, removed);
-      if (!point.hit() || !below(point, corners, released, removed, i)) continue;
-      follow(task.simplex, corners, released, removed, false, &interior);
-      break;
+    // Only if no facet is certain to be it, those that floating point cannot tell are decided exactly.
+    bool found = false;
+    for (const bool exactly : {false, true}) {
+      for (int removed = 0; removed <= task.simplex.dim() && !found; ++removed) {
+        CrossingPoint& point = load_map(corners, released, removed);
+        if (!point.quick_hit().value_or(exactly && point.hit())) continue;
+        found = below(point, corners, released, removed, i);
+        if (found) follow(task.simplex, corners, released, removed, false, &interior);
+      }
     }
   }
   if (!near || task.simplex.codim() == 0) return;

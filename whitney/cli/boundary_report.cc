@@ -90,6 +90,16 @@ std::string describe(const BoundaryStatistics& boundary) {
   return text;
 }
 
+void check_strata_format(const std::string& pattern, int intrinsic_dim) {
+  for (int dim = 0; dim < intrinsic_dim; ++dim) {
+    try {
+      return check_mesh_format(pattern, dim);
+    } catch (const InvalidInput&) {
+    }
+  }
+  check_mesh_format(pattern, intrinsic_dim);
+}
+
 std::vector<std::string> write_strata(const std::string& pattern, const SimplicialMesh& mesh, std::size_t num_strata,
                                       const MeshWriteOptions& options, std::string& failed) {
   const std::filesystem::path path(pattern);

@@ -22,6 +22,9 @@ std::string describe(const BoundaryStatistics& boundary);
 /// "(1, 0.5)", six digits.
 std::string point_text(const std::vector<double>& point);
 
+/// Throws InvalidInput when the format of the pattern can hold strata of no dimension up to n.
+void check_strata_format(const std::string& pattern, int intrinsic_dim);
+
 /// Writes every stratum to a file of its own, "name_3.vtu" for stratum 3 and the pattern "name.vtu"; those of a
 /// dimension that the format cannot hold are left out. Returns the names; appends what went wrong to `failed`, a line
 /// each.

@@ -33,6 +33,7 @@ int run_trace(const TraceArguments& arguments) {
                        " variables leave no manifold of dimension 1 or more");
   check_outputs(arguments.outputs, arguments.stats, n, arguments.mesh == "cells");
   check_outputs({}, arguments.strata, n, false);
+  if (!arguments.strata.empty()) check_strata_format(arguments.strata, n);
   const std::optional<Box> box = box_of(problem);
   const double edge_length = edge_length_of(arguments, problem, box);
   const coxeter::Triangulation triangulation = make_triangulation(problem.triangulation, d, edge_length);
@@ -49,7 +50,7 @@ int run_trace(const TraceArguments& arguments) {
   mesh = orient_by_function(std::move(mesh), function).mesh;
   const bool polygons = arguments.mesh == "cells";
   PolygonMesh cells;
-  if (polygons) cells = polygon_mesh(complex);
+  if (polygons) cells = polygon_mesh(complex, labels);
   statistics.seconds["mesh"] = watch.lap();
 
   if (labels != nullptr)
