@@ -4,6 +4,7 @@
 #include <whitney/cut_regularity.h>
 #include <whitney/exact_pivot.h>
 #include <whitney/find_seeds.h>
+#include <whitney/io/problem.h>
 #include <whitney/named_manifolds.h>
 #include <whitney/strata.h>
 #include <whitney/subdivide.h>
@@ -319,6 +320,57 @@ TEST(Boundary, UnitsDoNotMatter) {
     });
     const auto scaled = cut(f, g, coxeter::freudenthal(4, 0.4 * unit), {unit, 0, unit, 0});
     EXPECT_EQ(scaled.topology.euler_characteristic, 1);
+  }
+}
+
+/// f in the coordinates y = Q^T (x - b) of a random motion.
+Function moved(const Function& f, const Eigen::MatrixXd& Q, const Eigen::VectorXd& b) {
+  return make_function(f.ambient_dim(), f.codim(), [=](Point x, Values v) {
+    const Eigen::VectorXd y = Q.transpose() * (Eigen::Map<const Eigen::VectorXd>(x.data(), b.size()) - b);
+    f.evaluate({y.data(), std::size_t(y.size())}, v);
+  });
+}
+
+TEST(Boundary, MovedCopiesHaveTheSameStrata) {
+  struct Setting {
+    Function f, g;
+    std::vector<double> seed;
+    double edge_length;
+    std::map<int, int> strata;
+  };
+  for (const auto& [f, g, seed, edge_length, strata] :
+       {Setting{sphere_function(3, 1), coordinates(3, 3), {.6, .6, .6}, 0.2, {{2, 1}, {1, 3}, {0, 3}}},
+        Setting{torus_function(), coordinates(4, 4), {.7, .7, .7, .7}, 0.3, {{2, 1}, {1, 4}, {0, 4}}},
+        Setting{torus_function(), torus_cut(3), {1, 0, 1, 0}, 0.3, {{2, 1}, {1, 1}}},
+        Setting{sphere_function(4, 1), coordinates(4, 2), {.6, .6, .6, .6}, 0.5, {{3, 1}, {2, 2}, {1, 1}}}}) {
+    const int d = f.ambient_dim();
+    for (int run = 0; run < 4; ++run) {
+      const Eigen::MatrixXd Q = random_rotation(d, 7 + run);
+      Eigen::VectorXd b(d);
+      for (int c = 0; c < d; ++c) b[c] = std::cos(1.0 + c + 3 * run);
+      const Eigen::VectorXd start = Q * Eigen::Map<const Eigen::VectorXd>(seed.data(), d) + b;
+      const Cut copy =
+          cut(moved(f, Q, b), moved(g, Q, b), coxeter::coxeter_a(d, edge_length), {start.begin(), start.end()});
+      EXPECT_EQ(count_by_dim(copy.strata), strata);
+      EXPECT_EQ(copy.topology.euler_characteristic, 1);
+      // Variables in another order, and the inequalities too.
+      const int m = g.codim();
+      const Function reversed = make_function(d, m, [=, g = g](Point x, Values v) {
+        std::vector<double> y(x.rbegin(), x.rend());
+        g.evaluate(y, v);
+        std::reverse(v.begin(), v.end());
+      });
+      const Function f_reversed = make_function(d, f.codim(), [=, f = f](Point x, Values v) {
+        std::vector<double> y(x.rbegin(), x.rend());
+        f.evaluate(y, v);
+      });
+      if (run == 0) {
+        EXPECT_EQ(
+            count_by_dim(
+                cut(f_reversed, reversed, coxeter::freudenthal(d, edge_length), {seed.rbegin(), seed.rend()}).strata),
+            strata);
+      }
+    }
   }
 }
 
