@@ -31,9 +31,8 @@ class InlineArray {
   InlineArray(InlineArray&& other) noexcept { *this = std::move(other); }
   InlineArray& operator=(const InlineArray& other) {
     if (this == &other) return *this;
-    if (kCopiesWhole && !heap_ && !other.heap_) {
-      size_ = other.size_;
-      std::memcpy(inline_, other.inline_, sizeof inline_);
+    if (kCopiesWhole && !owns_memory() && !other.owns_memory()) {
+      copy_in_place(other);
     } else {
       assign(other.begin(), other.end());
     }
@@ -57,6 +56,8 @@ class InlineArray {
 
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
+  /// Whether the values are, or were when there were more of them, on the heap.
+  bool owns_memory() const { return heap_ != nullptr; }
   T* data() { return heap_ ? heap_.get() : inline_; }
   const T* data() const { return heap_ ? heap_.get() : inline_; }
   T* begin() { return data(); }
@@ -80,6 +81,11 @@ class InlineArray {
   [[gnu::noinline]] void assign(const T* first, const T* last) {
     resize_for_overwrite(static_cast<std::size_t>(last - first));
     copy(first, last, data());
+  }
+  /// Assignment where neither array owns memory: a few instructions without a branch.
+  void copy_in_place(const InlineArray& other) {
+    size_ = other.size_;
+    std::memmove(inline_, other.inline_, sizeof inline_);
   }
   void clear() { size_ = 0; }
   /// Keeps the first `size` values; size must not exceed size().
@@ -108,10 +114,10 @@ class InlineArray {
     capacity_ *= 2;
   }
 
+  T inline_[N];  // first: aligned as well as the array is
   std::size_t size_ = 0;
   std::size_t capacity_ = N;
   std::unique_ptr<T[]> heap_;  // empty while the values are in place
-  T inline_[N];
 };
 
 }  // namespace whitney::coxeter

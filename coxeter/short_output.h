@@ -77,8 +77,6 @@ class ShortOutput {
     std::memcpy(SimplexWriter(simplex_).base, &base, sizeof base);
   }
 
-  // With this the wide stores of the partition begin at multiples of 64 bytes.
-  alignas(64) char padding_[16];
   Simplex simplex_;
   const Simplex& original_;
   std::uint16_t* elements_;
