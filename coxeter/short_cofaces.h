@@ -33,7 +33,8 @@ class ShortCofaces {
 
   template <class Visitor>
   bool run(Visitor& visitor) {
-    if (cuts_ == 0) return out_.visit_once(simplex_.elements, simplex_.lasts, visitor);
+    constexpr Way kUncut = {0, 0};
+    if (cuts_ == 0) return visit_ways(&kUncut, &kUncut + 1, simplex_.elements, simplex_.lasts, 0, visitor);
     const int k = simplex_.dim, n = simplex_.num_elements, last_begin = simplex_.starts[k];
     const Nibbles last_part = simplex_.before[k + 1] ^ simplex_.before[k];
     const Nibbles others = simplex_.elements & nibbles_below(last_begin), top = nibble_at(n - 1);
@@ -52,7 +53,7 @@ class ShortCofaces {
       }
       bool go_on = true;
       if (cuts == 0) {
-        go_on = out_.visit(elements, lasts, visitor);
+        go_on = visit_ways(&kUncut, &kUncut + 1, elements, lasts, 0, visitor);
       } else {
         shift_ = shift;
         // What stays comes right before the others if these are listed or the larger ones.
@@ -147,9 +148,16 @@ class ShortCofaces {
         }
       }
     }
-    const Way* const end = ways_ + way_begins_[cuts][num_parts_];
-    const int shift = shift_;
-    for (const Way* way = ways_ + way_begins_[cuts][i]; way != end; ++way)
+    return visit_ways(ways_ + way_begins_[cuts][i], ways_ + way_begins_[cuts][num_parts_], elements, lasts, shift_,
+                      visitor);
+  }
+
+  /// Visits what each of the ways, moved up by `shift` places, makes of the same elements and lasts. The one call of
+  /// the visitor, so that it is compiled into the loop.
+  template <class Visitor>
+  [[gnu::noinline]] bool visit_ways(const Way* way, const Way* end, Nibbles elements, Nibbles lasts, int shift,
+                                    Visitor& visitor) {
+    for (; way != end; ++way)
       if (!out_.visit(elements ^ nibbles_up(way->change, shift), lasts | nibbles_up(way->lasts, shift), visitor))
         return false;
     return true;
@@ -193,11 +201,16 @@ class ShortCofaces {
   }
 
   template <class Visitor>
-  [[gnu::noinline]] bool cut_once(Nibbles rest, int begin, std::uint32_t num_pieces, Nibbles elements, Nibbles lasts,
-                                  Visitor& visitor) {
-    for (std::uint32_t chosen = 1; chosen < num_pieces; ++chosen) {
-      const Cut cut(rest, begin, chosen);
-      if (!out_.visit(elements | cut.elements, lasts | nibble_at(cut.middle - 1), visitor)) return false;
+  bool cut_once(Nibbles rest, int begin, std::uint32_t num_pieces, Nibbles elements, Nibbles lasts, Visitor& visitor) {
+    constexpr std::uint32_t kBlock = 32;
+    Way ways[kBlock];
+    for (std::uint32_t chosen = 1; chosen < num_pieces;) {
+      Way* way = ways;
+      for (const std::uint32_t end = std::min(chosen + kBlock, num_pieces); chosen < end; ++chosen) {
+        const Cut cut(rest, begin, chosen);
+        *way++ = {cut.elements, nibble_at(cut.middle - 1)};
+      }
+      if (!visit_ways(ways, way, elements, lasts, 0, visitor)) return false;
     }
     return true;
   }
