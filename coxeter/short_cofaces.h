@@ -12,9 +12,9 @@
 namespace whitney::coxeter::detail {
 
 /// CofaceEnumeration for d <= 15. From the outside: which elements of the last part wrap to the front, where they are a
-/// part of their own; how often each part is cut; the pieces, each a subset of what is left of its part. The ways to cut
-/// a part but the last do not depend on the wrap: while all of them fit into a table, they are listed once, those of all
-/// parts with as many cuts in a row, so that the innermost loops are long.
+/// part of their own; how often each part is cut; the pieces, each a subset of what is left of its part. The ways to
+/// cut a part but the last do not depend on the wrap: while all of them fit into a table, they are listed once, those
+/// of all parts with as many cuts in a row, so that the innermost loops are long.
 class ShortCofaces {
  public:
   /// simplex.dim() <= coface_dim <= simplex.ambient_dim().
@@ -62,6 +62,7 @@ class ShortCofaces {
         end_ = num_parts_ + (stays_first ? 0 : 1);
         parts_[stays_first ? 0 : 1] = {wraps, -shift, shift, 0};
         parts_[stays_] = {stays, last_begin, n - stay_begin, 0};
+        parts_[end_ - 1].room_behind = 0;
         for (int i = end_ - 1; i > 0; --i) parts_[i - 1].room_behind = parts_[i].room_behind + parts_[i].size - 1;
         go_on = cut_parts(stays_first ? 0 : 1, cuts, elements, lasts, visitor);
       }
