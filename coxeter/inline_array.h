@@ -31,9 +31,8 @@ class InlineArray {
   InlineArray(InlineArray&& other) noexcept { *this = std::move(other); }
   InlineArray& operator=(const InlineArray& other) {
     if (this == &other) return *this;
-    if (kCopiesWhole && !heap_ && !other.heap_) {
-      size_ = other.size_;
-      std::memcpy(inline_, other.inline_, sizeof inline_);
+    if (kCopiesWhole && !owns_memory() && !other.owns_memory()) {
+      copy_in_place(other);
     } else {
       assign(other.begin(), other.end());
     }
@@ -41,32 +40,34 @@ class InlineArray {
   }
   InlineArray& operator=(InlineArray&& other) noexcept {
     if (this == &other) return *this;
-    size_ = other.size_;
+    place_.size = other.place_.size;
     capacity_ = other.capacity_;
     heap_ = std::move(other.heap_);
     if (!heap_) {
       if constexpr (kCopiesWhole)
-        std::memcpy(inline_, other.inline_, sizeof inline_);
+        std::memcpy(place_.values, other.place_.values, sizeof place_.values);
       else
-        copy(other.inline_, other.inline_ + size_, inline_);
+        copy(other.place_.values, other.place_.values + place_.size, place_.values);
     }
-    other.size_ = 0;
+    other.place_.size = 0;
     other.capacity_ = N;
     return *this;
   }
 
-  std::size_t size() const { return size_; }
-  bool empty() const { return size_ == 0; }
-  T* data() { return heap_ ? heap_.get() : inline_; }
-  const T* data() const { return heap_ ? heap_.get() : inline_; }
+  std::size_t size() const { return place_.size; }
+  bool empty() const { return place_.size == 0; }
+  /// Whether the values are, or were when there were more of them, on the heap.
+  bool owns_memory() const { return heap_ != nullptr; }
+  T* data() { return heap_ ? heap_.get() : place_.values; }
+  const T* data() const { return heap_ ? heap_.get() : place_.values; }
   T* begin() { return data(); }
-  T* end() { return data() + size_; }
+  T* end() { return data() + place_.size; }
   const T* begin() const { return data(); }
-  const T* end() const { return data() + size_; }
+  const T* end() const { return data() + place_.size; }
   T& operator[](std::size_t i) { return data()[i]; }
   const T& operator[](std::size_t i) const { return data()[i]; }
-  T& back() { return data()[size_ - 1]; }
-  const T& back() const { return data()[size_ - 1]; }
+  T& back() { return data()[place_.size - 1]; }
+  const T& back() const { return data()[place_.size - 1]; }
 
   /// Changes the size; all values are unset afterwards.
   void resize_for_overwrite(std::size_t size) {
@@ -74,19 +75,21 @@ class InlineArray {
       heap_ = std::make_unique_for_overwrite<T[]>(size);
       capacity_ = size;
     }
-    size_ = size;
+    place_.size = size;
   }
   /// The range must not lie in this array.
   [[gnu::noinline]] void assign(const T* first, const T* last) {
     resize_for_overwrite(static_cast<std::size_t>(last - first));
     copy(first, last, data());
   }
-  void clear() { size_ = 0; }
+  /// Assignment where neither array owns memory: a few instructions without a branch.
+  void copy_in_place(const InlineArray& other) { place_ = other.place_; }
+  void clear() { place_.size = 0; }
   /// Keeps the first `size` values; size must not exceed size().
-  void truncate(std::size_t size) { size_ = size; }
+  void truncate(std::size_t size) { place_.size = size; }
   void push_back(const T& value) {
-    if (size_ == capacity_) grow();
-    data()[size_++] = value;
+    if (place_.size == capacity_) grow();
+    data()[place_.size++] = value;
   }
 
   friend bool operator==(const InlineArray& a, const InlineArray& b) {
@@ -103,15 +106,19 @@ class InlineArray {
 
   void grow() {
     auto larger = std::make_unique_for_overwrite<T[]>(2 * capacity_);
-    copy(data(), data() + size_, larger.get());
+    copy(data(), data() + place_.size, larger.get());
     heap_ = std::move(larger);
     capacity_ *= 2;
   }
 
-  std::size_t size_ = 0;
+  struct Place {
+    T values[N];
+    std::size_t size = 0;
+  };
+
+  Place place_;  // first: as well aligned as the array
   std::size_t capacity_ = N;
   std::unique_ptr<T[]> heap_;  // empty while the values are in place
-  T inline_[N];
 };
 
 }  // namespace whitney::coxeter

@@ -42,6 +42,8 @@ class LatticeVertex {
   std::uint64_t hash() const;
 
  private:
+  friend class Simplex;
+
   InlineArray<std::int32_t, 16> coordinates_;
 };
 

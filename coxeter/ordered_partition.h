@@ -49,6 +49,7 @@ class OrderedPartition {
   }
 
  private:
+  friend class Simplex;
   friend struct detail::SimplexWriter;
 
   // Elements and ends in one array: one allocation, or none, per partition.

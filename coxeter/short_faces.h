@@ -98,7 +98,7 @@ class ShortFaces {
   }
 
   template <class Visitor>
-  bool visit_all(NibblePair shares, const NibblePair* pair, const NibblePair* end, Visitor& visitor) {
+  [[gnu::noinline]] bool visit_all(NibblePair shares, const NibblePair* pair, const NibblePair* end, Visitor& visitor) {
     for (; pair != end; ++pair)
       if (!out_.visit(shares | *pair, visitor)) return false;
     return true;

@@ -52,6 +52,7 @@ class ShortOutput {
   template <class Visitor>
   bool visit(NibblePair partition, Visitor& visitor) {
     widen_nibbles(partition, increments_, elements_);
+    if (SimplexWriter::owns_memory(simplex_)) __builtin_unreachable();  // so that copies need not ask
     return visit_continues(visitor, static_cast<const Simplex&>(simplex_));
   }
   /// The same; `lasts` is the set of the places at which a part ends.
@@ -77,8 +78,6 @@ class ShortOutput {
     std::memcpy(SimplexWriter(simplex_).base, &base, sizeof base);
   }
 
-  // With this the wide stores of the partition begin at multiples of 64 bytes.
-  alignas(64) char padding_[16];
   Simplex simplex_;
   const Simplex& original_;
   std::uint16_t* elements_;

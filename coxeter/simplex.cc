@@ -64,6 +64,11 @@ Simplex::Simplex(LatticeVertex vertex, OrderedPartition partition)
 Simplex::Simplex(Representation representation)
     : Simplex(std::move(representation.vertex), std::move(representation.partition)) {}
 
+void Simplex::assign_parts(const Simplex& other) {
+  base_ = other.base_;
+  partition_ = other.partition_;
+}
+
 Simplex Simplex::from_vertices(std::span<const LatticeVertex> vertices) {
   if (vertices.empty()) throw InvalidInput("vertices must not be empty");
   const int d = vertices[0].ambient_dim();

@@ -34,6 +34,19 @@ class Simplex {
  public:
   /// The empty simplex: ambient dimension -1, dimension -1. It is there to be assigned to.
   Simplex() = default;
+  Simplex(const Simplex&) = default;
+  Simplex(Simplex&&) = default;
+  Simplex& operator=(Simplex&&) = default;
+  Simplex& operator=(const Simplex& other) {
+    if (owns_memory() | other.owns_memory()) {
+      assign_parts(other);
+    } else {
+      base_.coordinates_.copy_in_place(other.base_.coordinates_);
+      partition_.data_.copy_in_place(other.partition_.data_);
+      partition_.num_elements_ = other.partition_.num_elements_;
+    }
+    return *this;
+  }
   /// From any of the m + 1 representations. Throws InvalidInput unless the partition has d + 1 elements,
   /// LatticeOverflow when a vertex leaves the range of int32.
   Simplex(LatticeVertex vertex, OrderedPartition partition);
@@ -72,8 +85,12 @@ class Simplex {
  private:
   friend struct detail::SimplexWriter;
 
-  LatticeVertex base_;
-  OrderedPartition partition_;
+  bool owns_memory() const { return base_.coordinates_.owns_memory() | partition_.data_.owns_memory(); }
+  [[gnu::noinline]] void assign_parts(const Simplex& other);
+
+  // The values of each begin a cache line: a copy of them is one wide load and one wide store.
+  alignas(64) LatticeVertex base_;
+  alignas(64) OrderedPartition partition_;
 };
 
 /// The mean of the vertices of the simplex in the triangulation; d. Throws InvalidInput when the dimensions differ.

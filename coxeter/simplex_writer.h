@@ -22,6 +22,8 @@ struct SimplexWriter {
         elements(simplex.partition_.data_.data()),
         ends(elements + simplex.partition_.num_elements_) {}
 
+  static bool owns_memory(const Simplex& simplex) { return simplex.owns_memory(); }
+
   /// A copy of `original` with num_parts parts; what the ends hold is left open. At least `room` values may be written
   /// from `elements` on.
   static Simplex resized(const Simplex& original, int num_parts, std::size_t room = 0) {

@@ -127,5 +127,44 @@ TEST(ShortEnumeration, CopiesOfWhatIsVisitedAreIndependent) {
   for (const Simplex& face : kept) EXPECT_EQ(Simplex::from_vertices(face.vertices()), face);
 }
 
+TEST(ShortEnumeration, TakesASimplexThatOwnsMemory) {
+  std::mt19937 gen(7);
+  const Simplex s = random_simplex(9, 6, gen);
+  Simplex owner = random_simplex(400, 300, gen);
+  owner = s;
+  EXPECT_EQ(sorted<detail::ShortFaces>(owner, 3), sorted<detail::ShortFaces>(s, 3));
+  EXPECT_EQ(sorted<detail::ShortCofaces>(owner, 8), sorted<detail::ShortCofaces>(s, 8));
+}
+
+// The ways to cut parts of up to 5 elements are listed, unless there are too many of them.
+TEST(ShortCofaces, ListsTheWaysToCutSmallPartsOnly) {
+  std::mt19937 gen(8);
+  for (const auto& sizes : std::vector<std::vector<int>>{{5, 1},
+                                                         {5, 3, 1},
+                                                         {1, 5, 4},
+                                                         {4, 4, 4},
+                                                         {5, 5},
+                                                         {2, 6, 1},
+                                                         {6, 2},
+                                                         {3, 3, 3, 3},
+                                                         {2, 2, 2, 2, 2},
+                                                         {3, 2, 6}}) {
+    std::vector<int> order;
+    for (const int size : sizes)
+      for (int i = 0; i < size; ++i) order.push_back(static_cast<int>(order.size()));
+    std::shuffle(order.begin(), order.end(), gen);
+    std::vector<std::vector<int>> parts;
+    auto next = order.begin();
+    for (const int size : sizes) parts.emplace_back(next, next + size), next += size;
+    const Simplex s(LatticeVertex(static_cast<int>(order.size()) - 1), OrderedPartition::from_parts(parts));
+    for (int l = s.dim() + 1; l <= std::min(s.dim() + 4, s.ambient_dim()); ++l) {
+      if (num_cofaces(s, l) > 40000) break;
+      const auto cofaces = sorted<detail::ShortCofaces>(s, l);
+      ASSERT_EQ(double(cofaces.size()), num_cofaces(s, l));
+      ASSERT_EQ(cofaces, sorted<detail::CofaceEnumeration>(s, l)) << ::testing::PrintToString(sizes) << l;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace whitney::coxeter

@@ -170,5 +170,27 @@ TEST(Simplex, OverflowIsAnError) {
   EXPECT_THROW(Simplex({kMin}, OrderedPartition::from_parts({{1}, {0}})), LatticeOverflow);
 }
 
+TEST(Simplex, AssignsBetweenSimplicesThatOwnMemoryAndOthers) {
+  std::mt19937 gen(11);
+  // d = 17: the vertex alone owns memory; d = 30 with many parts: the partition too.
+  for (const auto& [d, m] : {std::pair{3, 2}, {16, 16}, {17, 1}, {30, 25}, {400, 7}}) {
+    const Simplex from = testing::random_simplex(d, m, gen);
+    for (const auto& [e, k] : {std::pair{0, 0}, {16, 3}, {17, 0}, {30, 29}, {500, 5}}) {
+      Simplex to = testing::random_simplex(e, k, gen);
+      to = from;
+      EXPECT_EQ(to, from);
+      const Simplex copy(to), small = testing::random_simplex(5, 5, gen);
+      EXPECT_EQ(copy, from);
+      to = small;  // keeps the memory it owns
+      EXPECT_EQ(to, small);
+      EXPECT_EQ(copy, from);
+      EXPECT_EQ(Simplex(to), small);
+      const Simplex& self = to;
+      to = self;
+      EXPECT_EQ(to, small);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace whitney::coxeter
