@@ -22,6 +22,7 @@
 #include <numeric>
 #include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace whitney {
@@ -422,6 +423,28 @@ TEST(Boundary, WholeCellsAreLeftOutWhereFHasNoValueOutsideTheBox) {
   EXPECT_TRUE(t.is_manifold());
   EXPECT_EQ(t.euler_characteristic, 1);
   EXPECT_THROW(trace(f, coxeter::coxeter_a(2, 0.1), std::vector<double>{0.5, 0.7}), OracleError);
+}
+
+TEST(Boundary, InHighDimensions) {
+  // Beyond d = 15 parts are lists (see short_partition.h). A quarter of a circle, a quarter of a sphere.
+  for (const auto& [d, n, edge_length] : {std::tuple{17, 1, 0.8}, {17, 2, 1.2}, {33, 1, 1.0}}) {
+    auto y = [](Point x, int c) { return x[c] - 0.01 * std::cos(1.0 + c); };
+    const Function f = make_function(d, d - n, [=, d = d, n = n](Point x, Values v) {
+      v[0] = -1;
+      for (int c = 0; c <= n; ++c) v[0] += y(x, c) * y(x, c);
+      for (int c = n + 1; c < d; ++c) v[c - n] = y(x, c);
+    });
+    const Function g = make_function(d, 2, [](Point x, Values v) {
+      v[0] = x[0] + 0.1 * x[1];
+      v[1] = x[1] - 0.07 * x[0];
+    });
+    std::vector<double> seed(d, 0.0);
+    seed[0] = seed[1] = std::sqrt(0.5);
+    const Cut quarter = cut(f, g, coxeter::coxeter_a(d, edge_length), seed);
+    EXPECT_EQ(count_by_dim(quarter.strata),
+              n == 1 ? (std::map<int, int>{{1, 1}, {0, 2}}) : (std::map<int, int>{{2, 1}, {1, 2}, {0, 2}}));
+    EXPECT_EQ(quarter.topology.euler_characteristic, 1);
+  }
 }
 
 TEST(Boundary, TheResultDoesNotDependOnTheSeed) {
