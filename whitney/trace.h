@@ -31,7 +31,7 @@ struct TraceOptions {
   /// The same as 2d further inequalities, see Domain. Where f has no finite value at a vertex outside the box, the
   /// simplices around that vertex are left out instead.
   std::optional<Box> box{};
-  /// The trace stops when it has found this many k-simplices. About 150 bytes each.
+  /// The trace stops when it has found this many k-simplices, those of the boundary included. About 150 bytes each.
   std::size_t max_simplices = 50'000'000;
   /// The trace stops after this many seconds.
   double time_limit = std::numeric_limits<double>::infinity();

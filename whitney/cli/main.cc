@@ -27,7 +27,9 @@ int main(int argc, char** argv) {
   TraceArguments trace;
   CLI::App* trace_command = app.add_subcommand(
       "trace", "Trace the zero set of equations: a piecewise-linear manifold, its topology and a mesh of it");
-  trace_command->add_option("PROBLEM", trace.problem, "problem file (JSON): equations, box, edge length; see README")
+  trace_command
+      ->add_option("PROBLEM", trace.problem,
+                   "problem file (JSON): equations and inequalities, charts, or a projective variety; see README")
       ->required();
   trace_command
       ->add_option("-o,--output", trace.outputs,

@@ -82,7 +82,8 @@ int run_trace_charts(const Problem& problem, const TraceArguments& arguments) {
                        std::to_string(edge_length) + ", nothing is written: " + mismatch.what();
     for (const ChartStatistics& chart : statistics.charts)
       for (const auto& point : chart.singular_points)
-        text += "\n  the boundary of chart \"" + chart.name + "\" is singular at " + point_text(point);
+        text += "\n  the boundary of chart \"" + chart.name + "\" is singular at " + point_text(point) +
+                ": the charts need other domains (of a projective variety: other weights)";
     std::cerr << "whitney: " << text << "\n";
     return kSingular;
   }
