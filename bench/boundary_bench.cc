@@ -4,18 +4,18 @@
 // runs interleaved, CPU seconds, ratios of medians of the time per stratum point found.
 //
 //   boundary_bench [RUNS]
-#include <coxeter/triangulation.h>
 #include <time.h>
-#include <whitney/cell_complex.h>
-#include <whitney/function.h>
-#include <whitney/trace.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
 #include <vector>
+
+#include <coxeter/triangulation.h>
+#include <whitney/cells/cell_complex.h>
+#include <whitney/functions/function.h>
+#include <whitney/tracing/trace.h>
 
 namespace {
 

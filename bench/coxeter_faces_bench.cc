@@ -7,9 +7,9 @@
 // and sums must agree.
 //
 // Usage: coxeter_faces_bench [seconds per row and library, default 0.15] [only this d]
-#include <coxeter/cofaces.h>
 #include <coxeter/counts.h>
-#include <coxeter/faces.h>
+#include <coxeter/faces/cofaces.h>
+#include <coxeter/faces/faces.h>
 
 #if __has_include(<gudhi/Coxeter_triangulation.h>)
 #define WHITNEY_HAS_GUDHI 1

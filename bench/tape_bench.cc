@@ -2,10 +2,6 @@
 //
 // The tape of parsed equations beside the same function written by hand: nanoseconds per evaluation, one point a call
 // and in batches, interleaved, medians; the values are compared. Required: at most 3 times the hand-written function.
-#include <whitney/expression.h>
-#include <whitney/io/problem.h>
-#include <whitney/named_manifolds.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -15,6 +11,10 @@
 #include <random>
 #include <string>
 #include <vector>
+
+#include <whitney/functions/expression.h>
+#include <whitney/functions/zero_sets.h>
+#include <whitney/io/read_problem.h>
 
 namespace {
 

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Topology of large meshes: the parts of topology_of() one by one, on tori made of grids. Every answer is checked.
 
-#include <benchmark/benchmark.h>
-
 #include <algorithm>
 #include <array>
 #include <stdexcept>
 #include <string>
 
-#include <whitney/chain_complex.h>
-#include <whitney/face_lattice.h>
-#include <whitney/homology.h>
-#include <whitney/orientation.h>
-#include <whitney/topology.h>
-#include <whitney/vertex_links.h>
+#include <benchmark/benchmark.h>
+
+#include <whitney/topology/chain_complex.h>
+#include <whitney/topology/face_lattice.h>
+#include <whitney/topology/homology.h>
+#include <whitney/topology/orientation.h>
+#include <whitney/topology/topology.h>
+#include <whitney/topology/vertex_links.h>
 
 namespace whitney {
 namespace {

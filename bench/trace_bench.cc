@@ -6,17 +6,10 @@
 //
 //   trace_bench [--runs R] [--peer-runs P] [case ...]
 // P times: one run of the peer, then R of ours. Cases: s2r3 t2r4 s3r6 t2r8 t2r10 t2r10fine
-#include <coxeter/triangulation.h>
 #include <malloc.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
-#include <whitney/cell_complex.h>
-#include <whitney/function.h>
-#include <whitney/subdivide.h>
-#include <whitney/trace.h>
-
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -27,6 +20,14 @@
 #include <optional>
 #include <string>
 #include <vector>
+
+#include <Eigen/Dense>
+
+#include <coxeter/triangulation.h>
+#include <whitney/cells/cell_complex.h>
+#include <whitney/cells/subdivide.h>
+#include <whitney/functions/function.h>
+#include <whitney/tracing/trace.h>
 
 #if __has_include(<gudhi/Coxeter_triangulation.h>)
 #define WHITNEY_HAS_PEER 1

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Whitney's construction at the scales that the README quotes: what it costs per d-simplex, and how that grows with d.
 // No peer: none exists (the constants of BKW20 ask for edge lengths of 10^-20 and below).
-#include <whitney/closed_form_manifolds.h>
-#include <whitney/immersed_surfaces.h>
-#include <whitney/io/problem.h>
-#include <whitney/matrix_manifolds.h>
-#include <whitney/subdivide.h>
-#include <whitney/topology.h>
-#include <whitney/triangulate.h>
-
 #include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <string>
 #include <vector>
+
+#include <whitney/cells/subdivide.h>
+#include <whitney/construction/triangulate.h>
+#include <whitney/io/read_problem.h>
+#include <whitney/manifolds/closed_form_manifolds.h>
+#include <whitney/manifolds/immersed_surfaces.h>
+#include <whitney/manifolds/matrix_manifolds.h>
+#include <whitney/topology/topology.h>
 
 namespace {
 

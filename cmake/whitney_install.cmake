@@ -11,7 +11,7 @@ install(EXPORT whitney-toolkit-targets NAMESPACE whitney:: DESTINATION ${package
 foreach(module coxeter perturbation whitney)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${module}
     DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/whitney-toolkit
-    FILES_MATCHING PATTERN "*.h" PATTERN "cli" EXCLUDE PATTERN "internal" EXCLUDE)
+    FILES_MATCHING PATTERN "*.h" PATTERN "cli" EXCLUDE PATTERN "formats" EXCLUDE)
 endforeach()
 
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/whitney-toolkit-config.cmake.in

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <coxeter/hash_mix.h>
 #include <coxeter/lattice_vertex.h>
+
+#include <coxeter/base/hash_mix.h>
 
 namespace whitney::coxeter {
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <coxeter/inline_array.h>
-
 #include <algorithm>
 #include <compare>
 #include <cstddef>
@@ -10,6 +8,8 @@
 #include <functional>
 #include <initializer_list>
 #include <span>
+
+#include <coxeter/base/inline_array.h>
 
 namespace whitney::coxeter {
 

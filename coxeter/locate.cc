@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <coxeter/error.h>
 #include <coxeter/locate.h>
 
 #include <algorithm>
@@ -8,6 +7,8 @@
 #include <limits>
 #include <numeric>
 #include <string>
+
+#include <coxeter/base/error.h>
 
 namespace whitney::coxeter {
 namespace {

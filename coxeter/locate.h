@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <span>
+
 #include <coxeter/simplex.h>
 #include <coxeter/triangulation.h>
-
-#include <span>
 
 namespace whitney::coxeter {
 

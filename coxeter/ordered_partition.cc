@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <coxeter/error.h>
 #include <coxeter/ordered_partition.h>
 
 #include <algorithm>
 #include <limits>
+
+#include <coxeter/base/error.h>
 
 namespace whitney::coxeter {
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <coxeter/error.h>
 #include <coxeter/quality.h>
-#include <coxeter/triangulation.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <string>
+
+#include <Eigen/LU>
+
+#include <coxeter/base/error.h>
+#include <coxeter/triangulation.h>
 
 namespace whitney::coxeter {
 namespace {

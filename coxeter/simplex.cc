@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <coxeter/error.h>
-#include <coxeter/hash_mix.h>
 #include <coxeter/simplex.h>
-#include <coxeter/triangulation.h>
 
 #include <algorithm>
 #include <limits>
 #include <numeric>
 #include <string>
+
+#include <coxeter/base/error.h>
+#include <coxeter/base/hash_mix.h>
+#include <coxeter/triangulation.h>
 
 namespace whitney::coxeter {
 namespace {

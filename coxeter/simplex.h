@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <coxeter/lattice_vertex.h>
-#include <coxeter/ordered_partition.h>
-
-#include <Eigen/Core>
 #include <compare>
 #include <cstddef>
 #include <cstdint>
@@ -12,6 +8,11 @@
 #include <span>
 #include <utility>
 #include <vector>
+
+#include <Eigen/Core>
+
+#include <coxeter/lattice_vertex.h>
+#include <coxeter/ordered_partition.h>
 
 namespace whitney::coxeter {
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <Eigen/Core>
-#include <Eigen/LU>
 #include <cstdint>
 #include <span>
+
+#include <Eigen/Core>
+#include <Eigen/LU>
 
 namespace whitney::coxeter {
 

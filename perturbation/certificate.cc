@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <coxeter/error.h>
 #include <perturbation/certificate.h>
-#include <perturbation/small_inverse.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include <coxeter/base/error.h>
+#include <perturbation/small_inverse.h>
 
 namespace whitney::perturbation {
 namespace {

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <perturbation/foot_oracle.h>
-#include <perturbation/min_norm_point.h>
-#include <perturbation/vertex_subsets.h>
-
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
+
+#include <perturbation/foot_oracle.h>
+#include <perturbation/min_norm_point.h>
+#include <perturbation/vertex_subsets.h>
 
 namespace whitney::perturbation {
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <CGAL/Interval_nt.h>
 #include <perturbation/certificate_proof.h>
-#include <perturbation/small_inverse.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
+
+#include <CGAL/Interval_nt.h>
+
+#include <perturbation/small_inverse.h>
 
 namespace whitney::perturbation {
 namespace {

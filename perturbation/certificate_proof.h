@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <perturbation/certificate.h>
-
 #include <cstdint>
 #include <string>
 #include <vector>
+
+#include <perturbation/certificate.h>
 
 namespace whitney::perturbation {
 

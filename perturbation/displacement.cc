@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <coxeter/error.h>
 #include <perturbation/displacement.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+
+#include <coxeter/base/error.h>
 
 namespace whitney::perturbation {
 namespace {

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <coxeter/lattice_vertex.h>
-#include <coxeter/quality.h>
-#include <coxeter/triangulation.h>
-
-#include <Eigen/Core>
 #include <cstddef>
 #include <optional>
 #include <span>
 #include <unordered_map>
 #include <utility>
 #include <vector>
+
+#include <Eigen/Core>
+
+#include <coxeter/lattice_vertex.h>
+#include <coxeter/quality.h>
+#include <coxeter/triangulation.h>
 
 namespace whitney::perturbation {
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <coxeter/counts.h>
-#include <coxeter/error.h>
-#include <coxeter/quality.h>
 #include <perturbation/parameters.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include <coxeter/base/error.h>
+#include <coxeter/counts.h>
+#include <coxeter/quality.h>
 
 namespace whitney::perturbation {
 namespace {

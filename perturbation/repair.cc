@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <coxeter/error.h>
-#include <perturbation/keyed_random.h>
 #include <perturbation/repair.h>
 
 #include <algorithm>
 #include <cmath>
+
+#include <coxeter/base/error.h>
+#include <coxeter/base/keyed_random.h>
 
 namespace whitney::perturbation {
 namespace {
@@ -17,7 +18,7 @@ constexpr std::size_t kAskEvery = 16;
 
 class Repairer {
  public:
-  Repairer(NearSimplices& near, std::span<const std::uint32_t> starts, const RepairOptions& options)
+  Repairer(PerturbedTriangulation& near, std::span<const std::uint32_t> starts, const RepairOptions& options)
       : near_(near),
         starts_(starts.begin(), starts.end()),
         options_(options),
@@ -41,14 +42,14 @@ class Repairer {
                          result.rounds[last - 1].failing >= result.rounds[last - 2].failing;
       bool polish = settled >= options_.sweeps && !stuck;
       const double target = settled < 2 ? options_.first_target : options_.target;
-      NearTraceOptions trace_options;
+      HitWalkOptions trace_options;
       trace_options.enough = polish ? options_.accept : target;
       trace_options.with_midpoints = polish;
       trace_options.max_simplices = options_.max_simplices;
       trace_options.region = options_.region;
       trace_options.keep_going = options_.keep_going;
       keep_starts_hit();
-      const NearTrace trace = trace_near(near_, starts_, trace_options);
+      const HitWalk trace = walk_hit_facets(near_, starts_, trace_options);
       RepairRound record;
       record.simplices = trace.simplices.size();
       record.worst_margin = std::numeric_limits<double>::infinity();
@@ -110,7 +111,7 @@ class Repairer {
   }
 
   /// Random numbers of this round for the simplex s.
-  KeyedRandom random_of(std::uint32_t s) {
+  coxeter::KeyedRandom random_of(std::uint32_t s) {
     const auto z = near_.lattice_vertex(near_.base(s));
     key_.assign(z.begin(), z.end());
     for (int c = 0; c < d_; ++c) key_.push_back(near_.part(s, c));
@@ -235,7 +236,7 @@ class Repairer {
   }
 
   void polish_simplex(std::uint32_t s, RepairResult& result) {
-    KeyedRandom random = random_of(s);
+    coxeter::KeyedRandom random = random_of(s);
     for (int attempt = 0; attempt < options_.trials; ++attempt) {
       if (!is_reached(s) || !going(result)) return;
       const Evaluation evaluation = near_.evaluate(s, options_.accept, true);
@@ -277,7 +278,7 @@ class Repairer {
     }
   }
 
-  void random_steps(KeyedRandom& random) {
+  void random_steps(coxeter::KeyedRandom& random) {
     const double size = options_.max_displacement * std::pow(10.0, 0.3 - 2 * random.uniform());
     trial_steps_.clear();
     for (std::size_t i = 0; i < moving_.size(); ++i) {
@@ -286,7 +287,7 @@ class Repairer {
     }
   }
 
-  NearSimplices& near_;
+  PerturbedTriangulation& near_;
   std::vector<std::uint32_t> starts_;
   const RepairOptions& options_;
   int d_, round_ = 0;
@@ -301,7 +302,7 @@ class Repairer {
 
 }  // namespace
 
-RepairResult repair(NearSimplices& near, std::span<const std::uint32_t> starts, const RepairOptions& options) {
+RepairResult repair(PerturbedTriangulation& near, std::span<const std::uint32_t> starts, const RepairOptions& options) {
   return Repairer(near, starts, options).run();
 }
 

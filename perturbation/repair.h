@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <perturbation/near_trace.h>
-
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <span>
 #include <vector>
+
+#include <perturbation/hit_walk.h>
 
 namespace whitney::perturbation {
 
@@ -52,6 +52,6 @@ struct RepairResult {
 ///
 /// Deterministic for a given rng_seed. No proof of termination: look at all_accepted. The displacements are left in
 /// `near`. starts: simplices that the manifold meets; when it meets none of them, nothing is done.
-RepairResult repair(NearSimplices& near, std::span<const std::uint32_t> starts, const RepairOptions& options);
+RepairResult repair(PerturbedTriangulation& near, std::span<const std::uint32_t> starts, const RepairOptions& options);
 
 }  // namespace whitney::perturbation

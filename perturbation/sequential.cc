@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <coxeter/counts.h>
-#include <coxeter/error.h>
-#include <perturbation/keyed_random.h>
-#include <perturbation/parameters.h>
 #include <perturbation/sequential.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <string>
+
+#include <coxeter/base/error.h>
+#include <coxeter/base/keyed_random.h>
+#include <coxeter/counts.h>
+#include <perturbation/parameters.h>
 
 namespace whitney::perturbation {
 namespace {
@@ -161,7 +162,7 @@ class Placer {
     num_spans_ = 0;
     collect(w, 0, size);
     const auto d = static_cast<std::size_t>(d_);
-    KeyedRandom random(options_.rng_seed, {table_.coordinates(v), d});
+    coxeter::KeyedRandom random(options_.rng_seed, {table_.coordinates(v), d});
     std::vector<double> step(d, 0.0), best(d, 0.0), x(d), y(static_cast<std::size_t>(k_));
     double best_distance = -1;
     for (int candidate = 0; candidate < options_.candidates && best_distance < min_distance_; ++candidate) {
@@ -205,7 +206,7 @@ int colour(std::span<const std::int32_t> vertex) {
   return static_cast<int>((sum % colours + colours) % colours);
 }
 
-SequentialResult sequential(NearSimplices& near, std::span<const std::uint32_t> starts,
+SequentialResult sequential(PerturbedTriangulation& near, std::span<const std::uint32_t> starts,
                             const SequentialOptions& options) {
   const int d = near.ambient_dim(), k = near.codim();
   if (!(options.max_displacement >= 0) || !std::isfinite(options.max_displacement))
@@ -223,7 +224,7 @@ SequentialResult sequential(NearSimplices& near, std::span<const std::uint32_t> 
 
   SequentialResult result;
   Placer placer(near.triangulation(), near.oracle(), radius, part * radius, options, result);
-  NearTraceOptions trace_options;
+  HitWalkOptions trace_options;
   trace_options.enough = options.accept;
   trace_options.max_simplices = options.max_simplices;
   trace_options.region = options.region;
@@ -248,7 +249,7 @@ SequentialResult sequential(NearSimplices& near, std::span<const std::uint32_t> 
     for (std::size_t i = 0; i < from.size(); ++i)
       if (!feet[i].empty() && !near.evaluate(from[i], options.accept, true).is_hit())
         if (const std::uint32_t other = find_start(near, feet[i]); other < near.num_simplices()) from[i] = other;
-    const NearTrace trace = trace_near(near, from, trace_options);
+    const HitWalk trace = walk_hit_facets(near, from, trace_options);
     SequentialRound round;
     round.vertices = done;
     round.simplices = trace.simplices.size();

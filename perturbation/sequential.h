@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <perturbation/near_trace.h>
-
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <limits>
 #include <span>
 #include <vector>
+
+#include <perturbation/hit_walk.h>
 
 namespace whitney::perturbation {
 
@@ -80,7 +80,7 @@ int colour(std::span<const std::int32_t> vertex);
 /// The number of spans grows exponentially with k: up to k! S(d+1, k) for a vertex. Throws InvalidInput when that
 /// exceeds kMaxSpans (first for k = 5 at d = 7 and k = 4 at d = 8) or d > 20, unless k = 1, or when an option is out of
 /// range.
-SequentialResult sequential(NearSimplices& near, std::span<const std::uint32_t> starts,
+SequentialResult sequential(PerturbedTriangulation& near, std::span<const std::uint32_t> starts,
                             const SequentialOptions& options = {});
 
 }  // namespace whitney::perturbation

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <coxeter/error.h>
-#include <perturbation/displacement.h>
 #include <perturbation/verdict.h>
 
 #include <algorithm>
@@ -8,12 +6,15 @@
 #include <limits>
 #include <sstream>
 
+#include <coxeter/base/error.h>
+#include <perturbation/displacement.h>
+
 namespace whitney::perturbation {
 namespace {
 
 /// An upper bound of what the rounding of x(v) + u(v) adds to abs(u(v)), over the vertices in sight: each coordinate is
 /// a sum of d + 2 terms, accumulated in order.
-double position_rounding(const NearSimplices& near) {
+double position_rounding(const PerturbedTriangulation& near) {
   const int d = near.ambient_dim();
   const Eigen::MatrixXd& linear = near.triangulation().linear();
   const Eigen::VectorXd& offset = near.triangulation().offset();
@@ -32,7 +33,7 @@ double position_rounding(const NearSimplices& near) {
 }
 
 /// Barycentre of simplex s of T~.
-std::vector<double> centre_of(const NearSimplices& near, std::uint32_t s) {
+std::vector<double> centre_of(const PerturbedTriangulation& near, std::uint32_t s) {
   const int d = near.ambient_dim();
   std::vector<double> centre(d, 0.0);
   for (int q = 0; q <= d; ++q)
@@ -60,7 +61,7 @@ const char* to_string(Verdict verdict) {
   }
 }
 
-CertificateReport certify(NearSimplices& near, const NearTrace& trace, double embedding_bound) {
+CertificateReport certify(PerturbedTriangulation& near, const HitWalk& trace, double embedding_bound) {
   if (!(embedding_bound > 0)) throw InvalidInput("embedding_bound must be positive");
   const int d = near.ambient_dim();
   CertificateReport report;

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <perturbation/certificate_proof.h>
-#include <perturbation/near_trace.h>
-#include <perturbation/violation.h>
-
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include <perturbation/certificate_proof.h>
+#include <perturbation/hit_walk.h>
+#include <perturbation/violation.h>
 
 namespace whitney::perturbation {
 
@@ -56,6 +56,6 @@ struct CertificateReport {
 /// The verdict on a trace, with every inequality in interval arithmetic. embedding_bound: w of T (see displacement.h).
 /// Afterwards near.evaluate names, for every certified simplex, the foot with which it was proved.
 /// What the verdict rests on besides: the bounds that the oracle states (reach, curvature, errors of its feet).
-CertificateReport certify(NearSimplices& near, const NearTrace& trace, double embedding_bound);
+CertificateReport certify(PerturbedTriangulation& near, const HitWalk& trace, double embedding_bound);
 
 }  // namespace whitney::perturbation

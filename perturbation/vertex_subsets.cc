@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <coxeter/error.h>
 #include <perturbation/vertex_subsets.h>
 
 #include <numeric>
 #include <string>
+
+#include <coxeter/base/error.h>
 
 namespace whitney::perturbation {
 

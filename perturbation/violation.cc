@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <perturbation/certificate_proof.h>
 #include <perturbation/violation.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include <perturbation/certificate_proof.h>
 
 namespace whitney::perturbation {
 namespace {
@@ -14,7 +15,7 @@ using Piece = std::vector<double>;
 
 class Searcher {
  public:
-  Searcher(NearSimplices& near, const ViolationOptions& options)
+  Searcher(PerturbedTriangulation& near, const ViolationOptions& options)
       : near_(near),
         options_(options),
         d_(near.ambient_dim()),
@@ -131,7 +132,7 @@ class Searcher {
     return std::nullopt;
   }
 
-  NearSimplices& near_;
+  PerturbedTriangulation& near_;
   const ViolationOptions& options_;
   int d_, k_;
   std::size_t all_pieces_ = 0;
@@ -148,7 +149,7 @@ std::string describe(const Violation& violation) {
              : "the manifold meets a simplex of the triangulation but none of its faces of dimension k";
 }
 
-std::optional<Violation> find_violation(NearSimplices& near, std::span<const std::uint32_t> simplices,
+std::optional<Violation> find_violation(PerturbedTriangulation& near, std::span<const std::uint32_t> simplices,
                                         const ViolationOptions& options) {
   Searcher searcher(near, options);
   for (std::size_t i = 0; i < simplices.size() && i < options.max_simplices; ++i)

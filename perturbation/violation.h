@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <perturbation/near_simplices.h>
-
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
+
+#include <perturbation/perturbed_triangulation.h>
 
 namespace whitney::perturbation {
 
@@ -39,7 +39,7 @@ struct ViolationOptions {
 /// that is hit and satisfies (B) holds exactly one point of M (the sheet of its foot), in its interior. Two pieces are
 /// two points. No point: dist(x, M) is 1-Lipschitz, so a piece about x with radius below dist(x, M) is empty; this
 /// rests on the oracle's feet being closest points, as a FootOracle promises.
-std::optional<Violation> find_violation(NearSimplices& near, std::span<const std::uint32_t> simplices,
+std::optional<Violation> find_violation(PerturbedTriangulation& near, std::span<const std::uint32_t> simplices,
                                         const ViolationOptions& options = {});
 
 }  // namespace whitney::perturbation

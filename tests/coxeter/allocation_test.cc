@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Enumeration allocates nothing per element. This file replaces operator new for the whole test program, to count.
-#include <coxeter/cofaces.h>
-#include <coxeter/faces.h>
-#include <gtest/gtest.h>
-#include <tests/coxeter/brute_force.h>
-
 #include <atomic>
 #include <cstdlib>
 #include <new>
+
+#include <gtest/gtest.h>
+#include <tests/coxeter/brute_force.h>
+
+#include <coxeter/faces/cofaces.h>
+#include <coxeter/faces/faces.h>
 
 namespace {
 std::atomic<int> g_allocations{0};

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <coxeter/simplex.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <random>
 #include <set>
 #include <utility>
 #include <vector>
+
+#include <coxeter/simplex.h>
 
 /// Simplices as sets of vertices, straight from the definition of the triangulation, without permutahedral
 /// representations: the second route for the tests of this folder.

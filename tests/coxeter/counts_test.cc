@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <coxeter/cofaces.h>
 #include <coxeter/counts.h>
-#include <gtest/gtest.h>
-#include <tests/coxeter/brute_force.h>
 
 #include <cmath>
 #include <random>
+
+#include <gtest/gtest.h>
+#include <tests/coxeter/brute_force.h>
+
+#include <coxeter/faces/cofaces.h>
 
 namespace whitney::coxeter {
 namespace {

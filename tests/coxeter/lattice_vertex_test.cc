@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <coxeter/lattice_vertex.h>
-#include <gtest/gtest.h>
 
 #include <unordered_set>
+
+#include <gtest/gtest.h>
 
 namespace whitney::coxeter {
 namespace {

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <coxeter/error.h>
 #include <coxeter/locate.h>
-#include <gtest/gtest.h>
-#include <tests/coxeter/brute_force.h>
 
 #include <cmath>
 #include <limits>
 #include <random>
 #include <vector>
+
+#include <gtest/gtest.h>
+#include <tests/coxeter/brute_force.h>
+
+#include <coxeter/base/error.h>
 
 namespace whitney::coxeter {
 namespace {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <coxeter/error.h>
 #include <coxeter/ordered_partition.h>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <coxeter/base/error.h>
 
 namespace whitney::coxeter {
 namespace {

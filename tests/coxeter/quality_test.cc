@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <coxeter/error.h>
 #include <coxeter/quality.h>
-#include <coxeter/triangulation.h>
-#include <gtest/gtest.h>
-#include <tests/coxeter/brute_force.h>
+
 #include <algorithm>
+#include <cmath>
 #include <numeric>
+#include <random>
 #include <vector>
 
 #include <Eigen/LU>
-#include <cmath>
-#include <random>
+#include <gtest/gtest.h>
+#include <tests/coxeter/brute_force.h>
+
+#include <coxeter/base/error.h>
+#include <coxeter/triangulation.h>
 
 namespace whitney::coxeter {
 namespace {

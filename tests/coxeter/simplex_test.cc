@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <coxeter/error.h>
 #include <coxeter/simplex.h>
-#include <coxeter/triangulation.h>
-#include <gtest/gtest.h>
-#include <tests/coxeter/brute_force.h>
 
 #include <limits>
 #include <random>
 #include <unordered_set>
+
+#include <gtest/gtest.h>
+#include <tests/coxeter/brute_force.h>
+
+#include <coxeter/base/error.h>
+#include <coxeter/triangulation.h>
 
 namespace whitney::coxeter {
 namespace {

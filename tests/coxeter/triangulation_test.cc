@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <coxeter/error.h>
 #include <coxeter/triangulation.h>
-#include <gtest/gtest.h>
 
-#include <Eigen/QR>
 #include <cmath>
 #include <limits>
 #include <vector>
+
+#include <Eigen/QR>
+#include <gtest/gtest.h>
+
+#include <coxeter/base/error.h>
 
 namespace whitney::coxeter {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Writes a square of two triangles through the installed library and reads it back.
-#include <coxeter/error.h>
+#include <cstdio>
+
+#include <coxeter/base/error.h>
 #include <whitney/io/read_mesh.h>
 #include <whitney/io/write_mesh.h>
-#include <whitney/mesh.h>
-
-#include <cstdio>
+#include <whitney/topology/mesh.h>
 
 int main() {
   const whitney::SimplicialMesh square{

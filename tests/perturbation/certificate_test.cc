@@ -1,9 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <coxeter/error.h>
-#include <gtest/gtest.h>
-#include <perturbation/certificate_proof.h>
-
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,6 +6,11 @@
 #include <utility>
 #include <vector>
 
+#include <Eigen/Core>
+#include <gtest/gtest.h>
+
+#include <coxeter/base/error.h>
+#include <perturbation/certificate_proof.h>
 #include "sphere_oracle.h"
 
 namespace whitney::perturbation {

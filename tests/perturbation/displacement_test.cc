@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <coxeter/cofaces.h>
-#include <coxeter/error.h>
-#include <gtest/gtest.h>
 #include <perturbation/displacement.h>
 
-#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 #include <random>
+
+#include <Eigen/LU>
+#include <gtest/gtest.h>
+
+#include <coxeter/base/error.h>
+#include <coxeter/faces/cofaces.h>
 
 namespace whitney::perturbation {
 namespace {

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The errata of BKW20 are checked one by one, by counting, measuring and random trials.
-#include <coxeter/counts.h>
-#include <coxeter/error.h>
-#include <coxeter/triangulation.h>
-#include <gtest/gtest.h>
-#include <perturbation/min_norm_point.h>
 #include <perturbation/parameters.h>
-#include <perturbation/vertex_subsets.h>
-#include <tests/coxeter/brute_force.h>
 
-#include <Eigen/Dense>
 #include <cmath>
 #include <limits>
 #include <random>
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+#include <tests/coxeter/brute_force.h>
+
+#include <coxeter/base/error.h>
+#include <coxeter/counts.h>
+#include <coxeter/triangulation.h>
+#include <perturbation/min_norm_point.h>
+#include <perturbation/vertex_subsets.h>
 
 namespace whitney::perturbation {
 namespace {

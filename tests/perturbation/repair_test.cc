@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <coxeter/error.h>
-#include <coxeter/quality.h>
-#include <gtest/gtest.h>
 #include <perturbation/repair.h>
-#include <perturbation/verdict.h>
 
-#include <Eigen/Core>
 #include <cmath>
 #include <map>
 #include <tuple>
 #include <vector>
 
+#include <Eigen/Core>
+#include <gtest/gtest.h>
+
+#include <coxeter/base/error.h>
+#include <coxeter/quality.h>
+#include <perturbation/verdict.h>
 #include "sphere_oracle.h"
 
 namespace whitney::perturbation {
@@ -35,12 +36,12 @@ struct Trial {
   std::vector<std::vector<double>> displacements;  // of moved vertices, by lattice coordinates
   CertificateReport report;
   RepairResult repair;
-  NearTrace trace;
+  HitWalk trace;
 };
 
 Trial attempt(const FootOracle& oracle, const coxeter::Triangulation& triangulation, std::vector<double> seed,
               std::uint64_t rng_seed = 1, int max_rounds = 16, std::size_t max_simplices = 1'000'000) {
-  NearSimplices near(triangulation, oracle);
+  PerturbedTriangulation near(triangulation, oracle);
   const double width = coxeter::simplex_width(triangulation);
   const std::uint32_t start = find_start(near, seed);
   RepairOptions options;
@@ -50,9 +51,9 @@ Trial attempt(const FootOracle& oracle, const coxeter::Triangulation& triangulat
   Trial out;
   if (max_rounds > 0) out.repair = repair(near, std::span(&start, 1), options);
   const std::uint32_t again = find_start(near, seed);
-  NearTraceOptions trace_options;
+  HitWalkOptions trace_options;
   trace_options.max_simplices = max_simplices;
-  out.trace = trace_near(near, std::span(&again, 1), trace_options);
+  out.trace = walk_hit_facets(near, std::span(&again, 1), trace_options);
   out.report = certify(near, out.trace, width);
   std::map<std::vector<int>, std::vector<double>> sorted;
   const int d = triangulation.ambient_dim();
@@ -149,12 +150,12 @@ TEST(Verdict, TooLargeAnEdgeLengthIsNeverCertified) {
     for (int variant = 0; variant < 4; ++variant) {
       const SphereOracle oracle(2, 1);
       const auto triangulation = moved_coxeter(2, edge_length, variant);
-      NearSimplices fresh(triangulation, oracle);
+      PerturbedTriangulation fresh(triangulation, oracle);
       const std::uint32_t start = find_start(fresh, on_axis(2));
       RepairOptions options;
       options.max_displacement = 0.499 * coxeter::simplex_width(triangulation);
       repair(fresh, std::span(&start, 1), options);
-      const NearTrace trace = trace_near(fresh, std::span(&start, 1));
+      const HitWalk trace = walk_hit_facets(fresh, std::span(&start, 1));
       const CertificateReport report = certify(fresh, trace, coxeter::simplex_width(triangulation));
       EXPECT_NE(report.verdict, Verdict::kCertified) << edge_length << " " << variant;
       violated += report.verdict == Verdict::kViolated;
@@ -169,17 +170,17 @@ TEST(Verdict, TooLargeAnEdgeLengthIsNeverCertified) {
 TEST(Verdict, ADisplacementOverTheBoundIsNotCertified) {
   const SphereOracle oracle(2, 1);
   const auto triangulation = moved_coxeter(2, 0.3);
-  NearSimplices near(triangulation, oracle);
+  PerturbedTriangulation near(triangulation, oracle);
   const double width = coxeter::simplex_width(triangulation);
   const std::uint32_t start = find_start(near, on_axis(2));
   RepairOptions options;
   options.max_displacement = 0.499 * width;
   repair(near, std::span(&start, 1), options);
-  ASSERT_EQ(certify(near, trace_near(near, std::span(&start, 1)), width).verdict, Verdict::kCertified);
+  ASSERT_EQ(certify(near, walk_hit_facets(near, std::span(&start, 1)), width).verdict, Verdict::kCertified);
   // A vertex that the trace does not even use, moved too far.
   const std::uint32_t s = near.locate(std::vector<double>{5, 5});
   near.set_displacement(near.corners(s)[0], std::vector<double>{0.6 * width, 0});
-  const CertificateReport report = certify(near, trace_near(near, std::span(&start, 1)), width);
+  const CertificateReport report = certify(near, walk_hit_facets(near, std::span(&start, 1)), width);
   EXPECT_EQ(report.verdict, Verdict::kNotCertified);
   EXPECT_FALSE(report.embedded);
   EXPECT_NE(report.reason.find("embedded"), std::string::npos) << report.reason;
@@ -188,13 +189,13 @@ TEST(Verdict, ADisplacementOverTheBoundIsNotCertified) {
 TEST(Verdict, AFacePushedOntoTheManifoldIsNotCertified) {
   const SphereOracle oracle(3, 2);
   const auto triangulation = moved_coxeter(3, 0.2);
-  NearSimplices near(triangulation, oracle);
+  PerturbedTriangulation near(triangulation, oracle);
   const double width = coxeter::simplex_width(triangulation);
   const std::uint32_t start = find_start(near, on_axis(3));
   RepairOptions options;
   options.max_displacement = 0.499 * width;
   repair(near, std::span(&start, 1), options);
-  const NearTrace trace = trace_near(near, std::span(&start, 1));
+  const HitWalk trace = walk_hit_facets(near, std::span(&start, 1));
   ASSERT_EQ(certify(near, trace, width).verdict, Verdict::kCertified);
   // The vertex of the trace that is closest to the sphere goes onto it.
   std::uint32_t best = 0;
@@ -211,7 +212,7 @@ TEST(Verdict, AFacePushedOntoTheManifoldIsNotCertified) {
   const Eigen::Vector3d x = Eigen::Map<const Eigen::Vector3d>(near.position(best));
   const Eigen::Vector3d u = Eigen::Map<const Eigen::Vector3d>(near.displacement(best)) + x.normalized() - x;
   near.set_displacement(best, {u.data(), 3});
-  const CertificateReport report = certify(near, trace_near(near, std::span(&start, 1)), width);
+  const CertificateReport report = certify(near, walk_hit_facets(near, std::span(&start, 1)), width);
   EXPECT_NE(report.verdict, Verdict::kCertified);
 }
 
@@ -361,9 +362,9 @@ class GoodAtVerticesOnly : public SphereOracle {
 TEST(Verdict, NamesTheFootThatWasProved) {
   const auto triangulation = moved_coxeter(2, 0.05);
   const GoodAtVerticesOnly oracle(triangulation);
-  NearSimplices near(triangulation, oracle);
+  PerturbedTriangulation near(triangulation, oracle);
   const std::uint32_t start = find_start(near, on_axis(2));
-  const NearTrace trace = trace_near(near, std::span(&start, 1));
+  const HitWalk trace = walk_hit_facets(near, std::span(&start, 1));
   const CertificateReport report = certify(near, trace, coxeter::simplex_width(triangulation));
   ASSERT_EQ(report.verdict, Verdict::kCertified) << report.reason;
   for (const std::uint32_t s : trace.simplices) {
@@ -375,18 +376,18 @@ TEST(Verdict, NamesTheFootThatWasProved) {
 TEST(Repair, RejectsWrongArguments) {
   const SphereOracle oracle(3, 1);
   const auto triangulation = moved_coxeter(3, 0.3);
-  NearSimplices near(triangulation, oracle);
+  PerturbedTriangulation near(triangulation, oracle);
   const std::uint32_t start = find_start(near, on_axis(3));
   EXPECT_THROW(repair(near, std::span(&start, 1), RepairOptions{}), InvalidInput);
-  EXPECT_THROW(certify(near, NearTrace{}, 0), InvalidInput);
+  EXPECT_THROW(certify(near, HitWalk{}, 0), InvalidInput);
   const auto plane = coxeter::coxeter_a(2, 0.3);
-  EXPECT_THROW(NearSimplices(plane, oracle), InvalidInput);
+  EXPECT_THROW(PerturbedTriangulation(plane, oracle), InvalidInput);
 }
 
 TEST(Repair, StopsWhenAsked) {
   const SphereOracle oracle(4, 2);
   const auto triangulation = moved_coxeter(4, 0.2);
-  NearSimplices near(triangulation, oracle);
+  PerturbedTriangulation near(triangulation, oracle);
   const std::uint32_t start = find_start(near, on_axis(4));
   RepairOptions options;
   options.max_displacement = 0.499 * coxeter::simplex_width(triangulation);

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <coxeter/error.h>
-#include <coxeter/quality.h>
-#include <gtest/gtest.h>
-#include <perturbation/displacement.h>
-#include <perturbation/parameters.h>
 #include <perturbation/sequential.h>
-#include <tests/coxeter/brute_force.h>
 
-#include <Eigen/Dense>
 #include <cmath>
 #include <map>
 #include <optional>
 #include <random>
 #include <vector>
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+#include <tests/coxeter/brute_force.h>
+
+#include <coxeter/base/error.h>
+#include <coxeter/quality.h>
+#include <perturbation/displacement.h>
+#include <perturbation/parameters.h>
 
 namespace whitney::perturbation {
 namespace {
@@ -66,7 +68,7 @@ double largest_displacement(int d, double edge_length) {
 struct Scheme {
   Sphere sphere;
   coxeter::Triangulation triangulation;
-  NearSimplices near;
+  PerturbedTriangulation near;
   SequentialResult result;
 
   Scheme(int d, int n, double edge_length, const SequentialOptions& options, std::optional<std::vector<double>> at = {})
@@ -280,7 +282,7 @@ TEST(Sequential, RejectsBadInput) {
   // 5! S(8, 5) = 126 000 spans; and no limit to the dimension for hypersurfaces.
   const Sphere curve(7, 2), hypersurface(9, 8);
   const auto t7 = coxeter::coxeter_a(7, 0.5), t9 = coxeter::coxeter_a(9, 0.5);
-  NearSimplices near7(t7, curve), near9(t9, hypersurface);
+  PerturbedTriangulation near7(t7, curve), near9(t9, hypersurface);
   const std::uint32_t start[] = {near7.locate(curve.point())};
   EXPECT_THROW(sequential(near7, start), InvalidInput);
   const std::uint32_t start9[] = {near9.locate(hypersurface.point())};

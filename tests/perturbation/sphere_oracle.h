@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <perturbation/foot_oracle.h>
-
-#include <Eigen/Core>
-#include <Eigen/QR>
 #include <cmath>
 #include <cstddef>
 #include <span>
 #include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/QR>
+
+#include <perturbation/foot_oracle.h>
 
 namespace whitney::perturbation {
 

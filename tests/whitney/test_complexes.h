@@ -13,10 +13,11 @@
 #include <set>
 #include <vector>
 
-#include <whitney/cell_complex.h>
-#include <whitney/face_lattice.h>
-#include <whitney/mesh.h>
 #include <Eigen/Dense>
+
+#include <whitney/cells/cell_complex.h>
+#include <whitney/topology/face_lattice.h>
+#include <whitney/topology/mesh.h>
 
 namespace whitney::testing {
 

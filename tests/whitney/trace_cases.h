@@ -2,17 +2,18 @@
 // The traceable cases of theory, and motions of them, for the tests of the tracer and of what comes after it.
 #pragma once
 
-#include <coxeter/triangulation.h>
-#include <whitney/combinators.h>
-#include <whitney/function.h>
-#include <whitney/named_manifolds.h>
-#include <whitney/trace.h>
-
-#include <Eigen/Dense>
 #include <algorithm>
 #include <numeric>
 #include <string>
 #include <vector>
+
+#include <Eigen/Dense>
+
+#include <coxeter/triangulation.h>
+#include <whitney/functions/combinators.h>
+#include <whitney/functions/function.h>
+#include <whitney/functions/zero_sets.h>
+#include <whitney/tracing/trace.h>
 
 namespace whitney::testing {
 

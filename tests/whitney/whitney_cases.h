@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <whitney/io/problem.h>
-#include <whitney/mesh.h>
-#include <whitney/named_submanifolds.h>
-#include <whitney/triangulate.h>
-
-#include <Eigen/LU>
 #include <cstddef>
 #include <cstdint>
 #include <map>
 #include <string>
 #include <utility>
+
+#include <Eigen/LU>
+
+#include <whitney/construction/triangulate.h>
+#include <whitney/io/read_problem.h>
+#include <whitney/manifolds/catalogue.h>
+#include <whitney/topology/mesh.h>
 
 namespace whitney {
 

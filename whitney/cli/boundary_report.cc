@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <whitney/cli/boundary_report.h>
-#include <whitney/subdivide.h>
-#include <whitney/topology.h>
 
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <map>
 
-#include <coxeter/error.h>
+#include <coxeter/base/error.h>
+#include <whitney/cells/subdivide.h>
+#include <whitney/topology/topology.h>
 
 namespace whitney::cli {
 namespace {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <whitney/cut_regularity.h>
-#include <whitney/io/problem.h>
-#include <whitney/io/statistics.h>
-#include <whitney/io/write_mesh.h>
-#include <whitney/strata.h>
-
 #include <string>
 #include <vector>
+
+#include <whitney/cells/strata.h>
+#include <whitney/io/read_problem.h>
+#include <whitney/io/write_mesh.h>
+#include <whitney/io/write_report.h>
+#include <whitney/tracing/cut_regularity.h>
 
 namespace whitney::cli {
 

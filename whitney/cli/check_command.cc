@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <iostream>
+
 #include <whitney/cli/commands.h>
 #include <whitney/cli/report.h>
 #include <whitney/io/atomic_file.h>
 #include <whitney/io/read_mesh.h>
-#include <whitney/io/statistics.h>
-
-#include <iostream>
+#include <whitney/io/write_report.h>
 
 namespace whitney::cli {
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <whitney/trace.h>
-#include <whitney/triangulate.h>
-
 #include <cstddef>
 #include <limits>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include <whitney/construction/triangulate.h>
+#include <whitney/tracing/trace.h>
 
 namespace whitney::cli {
 
@@ -22,7 +22,7 @@ struct TraceArguments {
   std::string strata;  // file name pattern
   std::optional<double> edge_length;
   std::string mesh = "pulled";
-  std::size_t max_simplices = TraceOptions{}.max_simplices;
+  std::size_t max_simplices = TraceOptions{}.run.max_simplices;
   double time_limit = std::numeric_limits<double>::infinity();
   std::string projection = "pca";
   std::string color_by;
@@ -40,7 +40,7 @@ struct TriangulateArguments {
   std::string scheme = "repair";
   int max_rounds = 16;
   std::string mesh = "barycentric";
-  std::size_t max_simplices = TriangulateOptions{}.max_simplices;
+  std::size_t max_simplices = TriangulateOptions{}.run.max_simplices;
   double time_limit = std::numeric_limits<double>::infinity();
   std::string projection = "pca";
   std::string color_by;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <whitney/cli/commands.h>
-
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <new>
+
+#include <CLI/CLI.hpp>
+
+#include <whitney/cli/commands.h>
 
 #ifdef __SANITIZE_ADDRESS__
 // libcln, behind GiNaC, leaks 26 bytes when a program starts.

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <perturbation/parameters.h>
-#include <whitney/cli/commands.h>
-#include <whitney/io/atomic_file.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <iostream>
+
+#include <perturbation/parameters.h>
+#include <whitney/cli/commands.h>
+#include <whitney/io/atomic_file.h>
 
 namespace whitney::cli {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <whitney/topology.h>
-
 #include <string>
+
+#include <whitney/topology/topology.h>
 
 namespace whitney::cli {
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <coxeter/error.h>
-#include <unistd.h>
 #include <whitney/cli/session.h>
 
 #include <csignal>
 #include <filesystem>
+#include <unistd.h>
+
+#include <coxeter/base/error.h>
 
 namespace whitney::cli {
 namespace {

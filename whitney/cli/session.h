@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <whitney/io/problem.h>
-#include <whitney/io/write_mesh.h>
-#include <whitney/mesh.h>
-#include <whitney/trace.h>
-
 #include <array>
 #include <chrono>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include <whitney/io/read_problem.h>
+#include <whitney/io/write_mesh.h>
+#include <whitney/topology/mesh.h>
+#include <whitney/tracing/trace.h>
 
 // What the subcommands have in common.
 

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <iostream>
+
+#include <coxeter/base/error.h>
+#include <whitney/atlas/glue_charts.h>
+#include <whitney/cells/subdivide.h>
 #include <whitney/cli/boundary_report.h>
 #include <whitney/cli/report.h>
 #include <whitney/cli/trace_piece.h>
-#include <whitney/cut_regularity.h>
-#include <whitney/glue_charts.h>
 #include <whitney/io/atomic_file.h>
 #include <whitney/io/write_mesh.h>
-#include <whitney/subdivide.h>
-
-#include <iostream>
-
-#include <coxeter/error.h>
+#include <whitney/tracing/cut_regularity.h>
 
 namespace whitney::cli {
 namespace {

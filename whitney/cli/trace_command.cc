@@ -1,21 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <iostream>
+
+#include <coxeter/base/error.h>
+#include <whitney/cells/subdivide.h>
 #include <whitney/cli/boundary_report.h>
 #include <whitney/cli/commands.h>
 #include <whitney/cli/report.h>
 #include <whitney/cli/session.h>
 #include <whitney/cli/trace_piece.h>
-#include <whitney/cut_regularity.h>
 #include <whitney/io/atomic_file.h>
-#include <whitney/io/problem.h>
-#include <whitney/io/statistics.h>
+#include <whitney/io/read_problem.h>
 #include <whitney/io/write_mesh.h>
-#include <whitney/orient_by_function.h>
-#include <whitney/subdivide.h>
-#include <whitney/topology.h>
-
-#include <iostream>
-
-#include <coxeter/error.h>
+#include <whitney/io/write_report.h>
+#include <whitney/topology/topology.h>
+#include <whitney/tracing/cut_regularity.h>
+#include <whitney/tracing/orient_by_function.h>
 
 namespace whitney::cli {
 int run_trace(const TraceArguments& arguments) {

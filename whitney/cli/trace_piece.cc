@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <unistd.h>
 #include <whitney/cli/trace_piece.h>
 
 #include <algorithm>
 #include <cstdio>
+#include <unistd.h>
 
-#include <coxeter/error.h>
+#include <coxeter/base/error.h>
 
 namespace whitney::cli {
 
@@ -55,12 +55,12 @@ TracedPiece trace_piece(const PieceProblem& problem, const coxeter::Triangulatio
   TraceOptions options;
   options.inequalities = problem.inequalities;
   options.box = problem.box;
-  options.max_simplices = arguments.max_simplices - std::min(arguments.max_simplices, found_before);
-  options.time_limit = arguments.time_limit - seconds_before;
+  options.run.max_simplices = arguments.max_simplices - std::min(arguments.max_simplices, found_before);
+  options.run.time_limit = arguments.time_limit - seconds_before;
   double reported = 0;
   {
     const InterruptGuard interrupt;
-    options.progress = [&](const TraceProgress& progress) {
+    options.run.progress = [&](const Progress& progress) {
       if (live && progress.seconds > reported + 0.5) {
         reported = progress.seconds;
         std::fprintf(stderr, "\r%zu simplices, %zu evaluations, %.0f s ", found_before + progress.simplices,

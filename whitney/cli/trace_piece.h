@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <coxeter/triangulation.h>
-#include <whitney/cell_complex.h>
-#include <whitney/cli/commands.h>
-#include <whitney/cli/session.h>
-#include <whitney/find_seeds.h>
-#include <whitney/io/statistics.h>
-#include <whitney/strata.h>
-
 #include <optional>
 #include <string>
 #include <vector>
+
+#include <coxeter/triangulation.h>
+#include <whitney/cells/cell_complex.h>
+#include <whitney/cells/strata.h>
+#include <whitney/cli/commands.h>
+#include <whitney/cli/session.h>
+#include <whitney/functions/find_seeds.h>
+#include <whitney/io/write_report.h>
 
 namespace whitney::cli {
 

@@ -1,29 +1,29 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <coxeter/error.h>
-#include <unistd.h>
-#include <whitney/ambient_mesh.h>
-#include <whitney/cli/commands.h>
-#include <whitney/cli/report.h>
-#include <whitney/cli/session.h>
-#include <whitney/complex_quality.h>
-#include <whitney/estimate_bending.h>
-#include <whitney/find_seeds.h>
-#include <whitney/inside_mesh.h>
-#include <whitney/io/atomic_file.h>
-#include <whitney/io/problem.h>
-#include <whitney/io/statistics.h>
-#include <whitney/io/write_mesh.h>
-#include <whitney/orientation.h>
-#include <whitney/scale_search.h>
-#include <whitney/subdivide.h>
-#include <whitney/topology.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <iostream>
 #include <numbers>
 #include <sstream>
+#include <unistd.h>
 #include <utility>
+
+#include <coxeter/base/error.h>
+#include <whitney/cells/subdivide.h>
+#include <whitney/cli/commands.h>
+#include <whitney/cli/report.h>
+#include <whitney/cli/session.h>
+#include <whitney/construction/ambient_mesh.h>
+#include <whitney/construction/complex_quality.h>
+#include <whitney/construction/inside_mesh.h>
+#include <whitney/construction/scale_search.h>
+#include <whitney/functions/find_seeds.h>
+#include <whitney/io/atomic_file.h>
+#include <whitney/io/read_problem.h>
+#include <whitney/io/write_mesh.h>
+#include <whitney/io/write_report.h>
+#include <whitney/manifolds/bending.h>
+#include <whitney/topology/orientation.h>
+#include <whitney/topology/topology.h>
 
 namespace whitney::cli {
 namespace {
@@ -189,10 +189,10 @@ int run_triangulate(const TriangulateArguments& arguments) {
   options.triangulate.max_rounds = arguments.max_rounds;
   options.triangulate.inequalities = problem.inequalities;
   options.triangulate.box = box_of(problem);
-  options.triangulate.max_simplices = arguments.max_simplices;
-  options.triangulate.time_limit = arguments.time_limit;
+  options.triangulate.run.max_simplices = arguments.max_simplices;
+  options.triangulate.run.time_limit = arguments.time_limit;
   double reported = 0;
-  options.triangulate.progress = [&](const TriangulateProgress& progress) {
+  options.triangulate.run.progress = [&](const Progress& progress) {
     if (live && (progress.seconds > reported + 0.5 || progress.seconds < reported)) {
       reported = progress.seconds;
       std::fprintf(stderr, "\r%s: %zu simplices, %.0f s ", progress.phase, progress.simplices, progress.seconds);
@@ -260,7 +260,7 @@ int run_triangulate(const TriangulateArguments& arguments) {
   for (int j = 0; j <= n; ++j) statistics.simplices_per_dim[k + j] = result.complex.num_cells(j);
   statistics.oracle_evaluations = result.oracle_evaluations;
   statistics.distinct_vertices = result.vertices_near;
-  statistics.stop_reason = result.stop_reason;
+  statistics.stop_reason = to_string(result.stop_reason);
   statistics.certificate = certificate_statistics(result, *bending);
   if (!arguments.stats.empty()) write_file(arguments.stats, to_json(statistics));
 
@@ -273,14 +273,14 @@ int run_triangulate(const TriangulateArguments& arguments) {
               << result.seconds_perturb + result.seconds_certify + result.seconds_complex << " s\n"
               << describe_verdict(result, *bending) << describe(statistics.topology, n)
               << describe_quality(*statistics.quality);
-    if (result.stopped) std::cout << "stopped early (" << result.stop_reason << ")\n";
+    if (result.stop_reason != StopReason::kNone) std::cout << "stopped early (" << statistics.stop_reason << ")\n";
     for (const std::string& file : arguments.outputs) std::cout << "written: " << file << "\n";
     for (const std::string& file : {arguments.ambient, arguments.inside})
       if (!file.empty() && solids.find(file) == std::string::npos) std::cout << "written: " << file << "\n";
     if (!arguments.stats.empty()) std::cout << "written: " << arguments.stats << "\n";
   }
   if (!failed.empty()) throw FileError(failed);
-  if (result.stopped) return kStopped;
+  if (result.stop_reason != StopReason::kNone) return kStopped;
   return result.certificate.verdict == Verdict::kCertified ? kDone : kNotCertified;
 }
 

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <coxeter/error.h>
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
 #include <whitney/io/atomic_file.h>
 
 #include <array>
 #include <cerrno>
 #include <charconv>
+#include <fcntl.h>
+#include <sys/stat.h>
 #include <system_error>
+#include <unistd.h>
+
+#include <coxeter/base/error.h>
 
 namespace whitney {
 namespace fs = std::filesystem;

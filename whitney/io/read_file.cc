@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <coxeter/error.h>
-#include <fcntl.h>
-#include <unistd.h>
 #include <whitney/io/read_file.h>
 
 #include <cerrno>
+#include <fcntl.h>
 #include <system_error>
+#include <unistd.h>
+
+#include <coxeter/base/error.h>
 
 namespace whitney {
 

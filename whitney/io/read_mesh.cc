@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <coxeter/error.h>
-#include <whitney/io/internal/mesh_readers.h>
-#include <whitney/io/read_file.h>
 #include <whitney/io/read_mesh.h>
 
 #include <array>
 #include <cctype>
 #include <utility>
+
+#include <coxeter/base/error.h>
+#include <whitney/io/formats/mesh_readers.h>
+#include <whitney/io/read_file.h>
 
 namespace whitney {
 

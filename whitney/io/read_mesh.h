@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <whitney/mesh.h>
-
 #include <filesystem>
+
+#include <whitney/topology/mesh.h>
 
 namespace whitney {
 

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <coxeter/error.h>
-#include <whitney/io/internal/mesh_writers.h>
-#include <whitney/io/internal/surface.h>
 #include <whitney/io/write_mesh.h>
-#include <whitney/projection.h>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <cmath>
+
+#include <coxeter/base/error.h>
+#include <whitney/functions/projection.h>
+#include <whitney/io/formats/mesh_writers.h>
+#include <whitney/io/formats/surface.h>
 
 namespace whitney {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <whitney/mesh.h>
-
 #include <filesystem>
 #include <string>
 #include <vector>
+
+#include <whitney/topology/mesh.h>
 
 namespace whitney {
 

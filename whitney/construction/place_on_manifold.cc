@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <whitney/construction/place_on_manifold.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include <coxeter/base/error.h>
+
+namespace whitney {
+namespace {
+
+using Rows = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
+
+class Placer {
+ public:
+  Placer(const Submanifold& manifold, const Bending& bending)
+      : manifold_(manifold),
+        d_(manifold.ambient_dim()),
+        n_(manifold.intrinsic_dim()),
+        radius_(std::max(bending.reach, bending.curvature_radius)),
+        point_(d_),
+        frame_(static_cast<std::size_t>(d_) * d_) {}
+
+  /// M ∩ sigma near x; corners: d x (k+1).
+  std::optional<Eigen::VectorXd> place(const Eigen::MatrixXd& corners, Eigen::VectorXd x) {
+    const int k = d_ - n_;
+    const double size = (corners.colwise() - corners.col(0)).colwise().norm().maxCoeff();
+    Eigen::MatrixXd system(k + 1, k + 1);
+    system.row(0).setOnes();
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(k + 1);
+    right(0) = 1;
+    double previous = std::numeric_limits<double>::infinity();
+    bool inside = false;
+    for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
+      if (!foot(x)) return std::nullopt;
+      const Eigen::Map<const Eigen::VectorXd> p(point_.data(), d_);
+      const double distance = (x - p).norm();
+      if (inside && (distance <= 1e-14 * size || (distance <= 1e-8 * size && distance >= previous / 2))) return x;
+      previous = distance;
+      system.bottomRows(k) = Rows(frame_.data(), d_, d_).bottomRows(k) * (corners.colwise() - p);
+      const Eigen::VectorXd lambda = system.partialPivLu().solve(right);
+      inside = (lambda.array() > 0).all();  // not for NaN
+      if (!lambda.allFinite()) return std::nullopt;
+      x = corners * lambda;
+    }
+    return std::nullopt;
+  }
+
+  /// See PlacedComplex::distance_bound; points: d x any.
+  double distance_bound(const Eigen::MatrixXd& points) {
+    if (!foot(points.rowwise().mean())) return std::numeric_limits<double>::infinity();
+    const Eigen::MatrixXd local =
+        Rows(frame_.data(), d_, d_) * (points.colwise() - Eigen::Map<const Eigen::VectorXd>(point_.data(), d_));
+    const double tangential = local.topRows(n_).colwise().squaredNorm().maxCoeff();
+    const double normal = local.bottomRows(d_ - n_).colwise().squaredNorm().maxCoeff();
+    if (!(tangential < radius_ * radius_)) return std::numeric_limits<double>::infinity();
+    const double errors = 2 * errors_.point + 2 * errors_.angle * std::sqrt(tangential + normal);
+    const double bound =
+        std::sqrt(normal) + tangential / (radius_ + std::sqrt(radius_ * radius_ - tangential)) + errors;
+    return bound * (1 + 1e-12);
+  }
+
+ private:
+  static constexpr int kMaxIterations = 20;
+
+  bool foot(const Eigen::VectorXd& x) {
+    return manifold_.project({x.data(), static_cast<std::size_t>(d_)}, point_, frame_, errors_);
+  }
+
+  const Submanifold& manifold_;
+  int d_, n_;
+  double radius_;
+  std::vector<double> point_, frame_;
+  FootErrors errors_;
+};
+
+/// The 0-cells of every n-cell.
+Incidence corners_of(const CellComplex& complex) {
+  Incidence corners;
+  std::vector<std::uint32_t> cells, below;
+  for (std::uint32_t i = 0; i < complex.num_cells(complex.intrinsic_dim); ++i) {
+    cells = {i};
+    for (int j = complex.intrinsic_dim; j > 0; --j) {
+      below.clear();
+      for (const std::uint32_t cell : cells)
+        below.insert(below.end(), complex.facets[j][cell].begin(), complex.facets[j][cell].end());
+      std::sort(below.begin(), below.end());
+      below.erase(std::unique(below.begin(), below.end()), below.end());
+      cells.swap(below);
+    }
+    corners.index.insert(corners.index.end(), cells.begin(), cells.end());
+    corners.offset.push_back(static_cast<std::uint32_t>(corners.index.size()));
+  }
+  return corners;
+}
+
+}  // namespace
+
+PlacedComplex place_on_manifold(CellComplex complex, const coxeter::Triangulation& triangulation,
+                                const perturbation::DisplacementMap& displacements, const Submanifold& manifold,
+                                const Bending& bending) {
+  const int d = complex.ambient_dim, k = d - complex.intrinsic_dim;
+  if (manifold.ambient_dim() != d || manifold.codim() != k || triangulation.ambient_dim() != d ||
+      displacements.ambient_dim() != d)
+    throw InvalidInput("place_on_manifold: the arguments have different dimensions");
+  if (!(bending.reach > 0)) throw InvalidInput("place_on_manifold: reach must be positive");
+  PlacedComplex result;
+  Placer placer(manifold, bending);
+  Eigen::MatrixXd corners(d, k + 1);
+  for (std::size_t i = 0; i < complex.num_cells(0); ++i) {
+    const coxeter::Simplex simplex = complex.simplex(0, i);
+    for (int q = 0; q <= k; ++q)
+      corners.col(q) = perturbation::position(triangulation, displacements, simplex.vertex(q));
+    Eigen::Map<Eigen::VectorXd> x(&complex.points[i * d], d);
+    if (const auto placed = placer.place(corners, x)) {
+      x = *placed;
+      ++result.placed;
+    } else {
+      ++result.kept;
+    }
+  }
+  const Incidence cells = corners_of(complex);
+  Eigen::MatrixXd points;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    points.resize(d, static_cast<Eigen::Index>(cells[i].size()));
+    for (Eigen::Index q = 0; q < points.cols(); ++q)
+      points.col(q) = Eigen::Map<const Eigen::VectorXd>(&complex.points[std::size_t{cells[i][q]} * d], d);
+    result.distance_bound = std::max(result.distance_bound, placer.distance_bound(points));
+  }
+  result.complex = std::move(complex);
+  return result;
+}
+
+}  // namespace whitney

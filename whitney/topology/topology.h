@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <whitney/topology/homology.h>
+#include <whitney/topology/incidence.h>
+#include <whitney/topology/mesh.h>
+#include <whitney/topology/vertex_links.h>
+
+namespace whitney {
+
+/// What to compute beyond the counts, components and orientability, which are always there.
+struct TopologyOptions {
+  bool links = true;     ///< decide whether a mesh is a manifold (not for complexes given by facets)
+  bool homology = true;  ///< homology_z and betti_z2
+  std::size_t max_homology_cells = std::numeric_limits<std::size_t>::max();  ///< skip homology of larger complexes
+};
+
+/// Decided by the links of the vertices, see check_vertex_links.
+enum class ManifoldKind {
+  kNotChecked,    ///< options.links was false, or the input was not a simplicial mesh
+  kClosed,        ///< every link is a sphere
+  kWithBoundary,  ///< every link is a sphere or a ball, one at least a ball
+  kSingular,      ///< some link is neither; `witness` says which
+};
+
+/// The topology of an n-dimensional complex.
+struct Topology {
+  std::vector<std::size_t> f_vector;      ///< number of cells of dimension 0..n; unused points are no cells
+  std::int64_t euler_characteristic = 0;  ///< f_0 - f_1 + f_2 - ..
+  std::size_t components = 0;             ///< connected components
+  std::size_t unused_points = 0;          ///< points of the mesh that no simplex uses
+
+  bool pure = true;                     ///< every cell lies in an n-cell; a mesh is always pure
+  std::size_t boundary_faces = 0;       ///< (n-1)-cells in exactly one n-cell
+  std::size_t boundary_components = 0;  ///< connected components of their union; for a surface: boundary loops
+  std::size_t branching_faces = 0;      ///< (n-1)-cells in three or more n-cells; 0 for a pseudomanifold
+  bool orientable = true;               ///< no branching faces, and the n-cells can be oriented consistently
+
+  ManifoldKind manifold = ManifoldKind::kNotChecked;
+  bool links_proved = false;          ///< false for n >= 4 if some link is only known to have the right homology
+  std::size_t singular_vertices = 0;  ///< vertices with a bad link
+  std::optional<LinkDefect> witness;  ///< the first place that is not a manifold
+
+  std::optional<std::vector<HomologyGroup>> homology_z;  ///< H_0 .. H_n; empty when not computed
+  std::optional<std::vector<std::size_t>> betti_z2;      ///< Betti numbers over Z/2
+
+  bool is_closed_manifold() const { return manifold == ManifoldKind::kClosed; }
+  /// Closed ones included.
+  bool is_manifold() const { return manifold == ManifoldKind::kClosed || manifold == ManifoldKind::kWithBoundary; }
+};
+
+/// The topology of a mesh. The mesh without simplices is a closed manifold without components.
+/// Throws InvalidInput for what is not a simplicial complex: a vertex out of range or twice in a simplex, two simplices
+/// with the same vertices, arrays whose lengths do not fit.
+Topology topology_of(const SimplicialMesh& mesh, const TopologyOptions& options = {});
+
+/// The topology of a regular CW complex given by its facets (see chain_complex.h), pure or not; n = facets.size() - 1.
+/// Throws InvalidInput as regular_cell_signs() does.
+Topology topology_of(std::span<const Incidence> facets, const TopologyOptions& options = {});
+
+}  // namespace whitney
