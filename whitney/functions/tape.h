@@ -61,6 +61,31 @@ inline double pow(double a, int n) { return repeated_squaring(a, n); }
 /// manifolds are full of. Sums are added from left to right, in the order in which they were built.
 class Tape {
  public:
+  /// register[result] = op(register[a], register[b]). Operands are read before the result is written: the result may
+  /// take an operand's register.
+  struct Instruction {
+    TapeOp op;             ///< never kInput
+    std::uint32_t result;  ///< register
+    /// Registers; a alone for functions of one argument. kSum: numbers of linear and of product terms; kPower: b is the
+    /// exponent, an integer >= 3; kConstant: neither is read.
+    std::uint32_t a, b;
+    friend bool operator==(const Instruction&, const Instruction&) = default;
+  };
+  /// factor (a constant), factor * register[a] (linear; a == b) or factor * register[a] * register[b] (product).
+  /// A kConstant reads one of them, a kSum 1 + (linear) + (product): its constant, then the linear ones, then the
+  /// products; consumed one after the other in the order of the code.
+  struct Term {
+    double factor;
+    std::uint32_t a, b;
+    friend bool operator==(const Term&, const Term&) = default;
+  };
+
+  /// The program, for readers that run it in an arithmetic of their own or analyze it. Registers 0 .. d - 1 hold x at
+  /// the start and may be overwritten once x_i is needed no more; the others are written before they are read.
+  std::span<const Instruction> instructions() const { return code_; }
+  std::span<const Term> terms() const { return terms_; }                        ///< of kSum and kConstant
+  std::span<const std::uint32_t> output_registers() const { return outputs_; }  ///< k, read after the last one
+
   int num_inputs() const { return num_inputs_; }                         ///< d
   int num_outputs() const { return static_cast<int>(outputs_.size()); }  ///< k
   int num_registers() const { return num_registers_; }                   ///< size of the workspace
@@ -85,20 +110,6 @@ class Tape {
 
  private:
   friend class TapeBuilder;
-
-  struct Instruction {
-    TapeOp op;
-    std::uint32_t result;
-    std::uint32_t a, b;  ///< registers; kSum: numbers of linear and of product terms; kPower: b is the exponent
-    friend bool operator==(const Instruction&, const Instruction&) = default;
-  };
-  /// factor, factor * a or factor * a * b. A kSum reads 1 + (linear) + (products) of them, a kConstant one, in the
-  /// order of the code.
-  struct Term {
-    double factor;
-    std::uint32_t a, b;
-    friend bool operator==(const Term&, const Term&) = default;
-  };
 
   [[noreturn]] void throw_sizes(std::size_t num_coordinates, std::size_t num_values) const;
   /// Runs the code on registers whose first d hold the input.
