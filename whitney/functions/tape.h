@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <span>
 #include <vector>
 
@@ -124,54 +123,6 @@ class Tape {
   std::vector<Instruction> code_;
   std::vector<Term> terms_;
   std::vector<std::uint32_t> outputs_;  ///< register of every output
-};
-
-/// Builds a Tape from the leaves up. Equal subexpressions become one node; constants are folded, in doubles.
-/// Every member throws InvalidInput when the result is a constant that is not finite, or a node does not exist.
-class TapeBuilder {
- public:
-  using Node = std::uint32_t;
-  struct Term {
-    double factor;
-    Node node;
-  };
-
-  /// d = num_inputs >= 0.
-  explicit TapeBuilder(int num_inputs);
-
-  Node input(int i);
-  Node constant(double value);
-  /// constant + sum of factor * node, added in the given order; equal nodes are collected at the first of them.
-  Node sum(double constant, const std::vector<Term>& terms);
-  Node product(Node a, Node b);
-  Node quotient(Node a, Node b);
-  Node power(Node a, int n);  ///< a^n, any integer n
-  Node pow(Node a, Node b);
-  Node function(TapeOp op, Node a);  ///< op: kSqrt .. kAbs
-
-  /// Whether the node is a constant, and then its value.
-  bool is_constant(Node a) const { return node(a).op == TapeOp::kConstant; }
-  double value(Node a) const { return node(a).constant; }
-
-  /// The program that computes the nodes.
-  Tape build(std::span<const Node> outputs) const;
-
- private:
-  struct NodeData {
-    TapeOp op = TapeOp::kConstant;
-    double constant = 0;  ///< kConstant, kSum
-    Node a = 0, b = 0;    ///< operands; kInput: its index; kPower: b is the exponent
-    std::vector<Term> terms{};
-  };
-
-  const NodeData& node(Node a) const;
-  Node intern(NodeData data);
-  /// node = factor * rest
-  Term split_factor(Node a) const;
-
-  int num_inputs_;
-  std::vector<NodeData> nodes_;  ///< operands before their users
-  std::map<std::vector<std::uint64_t>, Node> index_;
 };
 
 template <class T>
