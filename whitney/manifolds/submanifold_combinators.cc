@@ -57,6 +57,7 @@ class MovedModel : public Submanifold::Model {
     errors.angle += map_.turn_rounding(d);
     return true;
   }
+  FootPromise promise() const override { return M_.promise(); }
   std::optional<Bending> bending() const override {
     std::optional<Bending> bending = M_.bending();
     if (bending) {
@@ -160,6 +161,7 @@ class ProductModel : public Submanifold::Model {
     for (std::size_t i = 0; i < e; ++i) std::copy_n(&G[i * e], e, &frame[(i < n ? i + m : i + d) * (d + e) + d]);
     return true;
   }
+  FootPromise promise() const override { return perturbation::weaker(M_.promise(), N_.promise()); }
   std::optional<Bending> bending() const override {
     const std::optional<Bending> a = M_.bending(), b = N_.bending();
     if (!a || !b) return std::nullopt;
@@ -201,6 +203,7 @@ class EmbeddedModel : public Submanifold::Model {
     for (std::size_t i = d; i < e; ++i) frame[i * e + i] = 1;
     return true;
   }
+  FootPromise promise() const override { return M_.promise(); }
   std::optional<Bending> bending() const override { return M_.bending(); }
   std::vector<double> seed_points() const override {
     const std::size_t d = M_.ambient_dim(), e = ambient_dim_;
