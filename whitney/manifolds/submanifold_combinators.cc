@@ -24,6 +24,14 @@ void require(bool condition, const std::string& message) {
   if (!condition) throw InvalidInput(message);
 }
 
+/// A double that is at most a b, for a, b > 0: a bound that is proved stays one.
+double product_below(double a, double b) {
+  const double product = a * b;
+  // The residual of a rounded product is a double, unless it is too small for one.
+  const bool is_below = product > 1e-280 && std::fma(a, b, -product) >= 0;
+  return is_below ? product : std::nextafter(product, 0.0);
+}
+
 double largest(std::span<const double> x) {
   double size = 0;
   for (const double c : x) size = std::max(size, std::abs(c));
@@ -61,8 +69,8 @@ class MovedModel : public Submanifold::Model {
   std::optional<Bending> bending() const override {
     std::optional<Bending> bending = M_.bending();
     if (bending) {
-      bending->reach *= map_.ratio();
-      bending->curvature_radius *= map_.ratio();
+      bending->reach = product_below(bending->reach, map_.ratio());
+      bending->curvature_radius = product_below(bending->curvature_radius, map_.ratio());
     }
     return bending;
   }
