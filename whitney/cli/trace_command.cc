@@ -55,6 +55,9 @@ int run_trace(const TraceArguments& arguments) {
   if (labels != nullptr)
     statistics.boundary =
         boundary_statistics(strata, mesh, check_cuts(function, traced, triangulation.edge_length()), problem);
+  const CutRegularity interior = check_interior(function, traced, triangulation.edge_length());
+  statistics.interior_singular_value = interior.smallest_singular_value;
+  for (const SingularCut& point : interior.singular) statistics.interior_singular_points.push_back(point.point);
   statistics.topology = topology_of(mesh);
   if (polygons) {
     statistics.topology.f_vector.clear();
@@ -93,6 +96,11 @@ int run_trace(const TraceArguments& arguments) {
     for (std::size_t i = 0; !piece.searched && i < traced.seeds.size(); ++i)
       if (traced.seeds[i].outcome == SeedReport::Outcome::kDropped)
         std::cout << "seed point " << i + 1 << " dropped: " << traced.seeds[i].reason << "\n";
+    std::cout << too_small_text(statistics);
+    for (const auto& point : statistics.interior_singular_points)
+      std::cout
+          << "the zero set is SINGULAR at " << point_text(point)
+          << ": it crosses or touches itself or has a tip there, and the mesh is one resolution of it among several\n";
     if (statistics.boundary) std::cout << describe(*statistics.boundary);
     if (traced.stop_reason == StopReason::kBox)
       std::cout << "the manifold reaches the box and was cut there"
@@ -103,6 +111,7 @@ int run_trace(const TraceArguments& arguments) {
     if (!arguments.stats.empty()) std::cout << "written: " << arguments.stats << "\n";
   }
   if (!failed.empty()) throw FileError(failed);
+  if (!statistics.interior_singular_points.empty()) return kSingular;
   if (statistics.boundary && !statistics.boundary->singular_points.empty()) return kSingular;
   if (traced.stop_reason == StopReason::kNone || traced.stop_reason == StopReason::kBox) return kDone;
   return kStopped;

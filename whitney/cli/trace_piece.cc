@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <whitney/cli/trace_piece.h>
 
+#include <unistd.h>
 #include <algorithm>
 #include <cstdio>
-#include <unistd.h>
 
 #include <coxeter/base/error.h>
+#include <whitney/cli/boundary_report.h>
 
 namespace whitney::cli {
 
@@ -33,6 +34,17 @@ std::string TracedPiece::where_to_look() const {
   text = "no simplex meets the zero set";
   if (!traced.seeds.empty()) text += "; the first seed point was dropped because " + traced.seeds.front().reason;
   return text;
+}
+
+std::string too_small_text(const Statistics& statistics) {
+  if (statistics.num_seeds_too_small == 0) return "";
+  const bool one = statistics.num_seeds_too_small == 1;
+  std::string text = std::to_string(statistics.num_seeds_too_small) + (one ? " seed lies" : " seeds lie") +
+                     " on parts too small for this edge length, e.g. at " + point_text(statistics.too_small_point);
+  char finer[32];
+  std::snprintf(finer, sizeof finer, "%.3g", statistics.too_small_edge_length);
+  if (statistics.too_small_edge_length > 0) text += ": try L <= " + std::string(finer);
+  return text + "\n";
 }
 
 TracedPiece trace_piece(const PieceProblem& problem, const coxeter::Triangulation& triangulation,
@@ -80,6 +92,11 @@ TracedPiece trace_piece(const PieceProblem& problem, const coxeter::Triangulatio
     statistics.num_seeds_used += seed.outcome == SeedReport::Outcome::kUsed;
     statistics.num_seeds_merged += seed.outcome == SeedReport::Outcome::kMerged;
     statistics.num_seeds_dropped += seed.outcome == SeedReport::Outcome::kDropped;
+    if (seed.outcome != SeedReport::Outcome::kTooSmall) continue;
+    if (statistics.num_seeds_too_small++ == 0) statistics.too_small_point = seed.unseen;
+    double& finer = statistics.too_small_edge_length;
+    if (seed.finer_edge_length > 0)
+      finer = finer > 0 ? std::min(finer, seed.finer_edge_length) : seed.finer_edge_length;
   }
   for (int j = 0; j <= n; ++j) statistics.simplices_per_dim[k + j] += piece.complex.set_begin[j][1];
   statistics.oracle_evaluations += piece.traced.evaluations;

@@ -42,6 +42,9 @@ TracedPiece trace_piece(const PieceProblem& problem, const coxeter::Triangulatio
                         const TraceArguments& arguments, std::size_t found_before, double seconds_before,
                         Stopwatch& watch, Statistics& statistics);
 
+/// "3 seeds lie on parts too small for this edge length, e.g. at (..): try L <= ..", and a newline; or nothing.
+std::string too_small_text(const Statistics& statistics);
+
 /// That of the arguments, of the problem file, or the longest side of the box / 30.
 double edge_length_of(const TraceArguments& arguments, const Problem& problem, const std::optional<Box>& box);
 

@@ -102,6 +102,11 @@ std::string to_json(const Statistics& s) {
   out["num_seeds_used"] = s.num_seeds_used;
   out["num_seeds_merged"] = s.num_seeds_merged;
   out["num_seeds_dropped"] = s.num_seeds_dropped;
+  out["num_seeds_too_small"] = s.num_seeds_too_small;
+  if (s.num_seeds_too_small > 0) {
+    out["too_small_point"] = s.too_small_point;
+    out["too_small_edge_length"] = s.too_small_edge_length > 0 ? Json(s.too_small_edge_length) : Json(nullptr);
+  }
   Json per_dim = Json::object();
   for (const auto& [dim, count] : s.simplices_per_dim) per_dim[std::to_string(dim)] = count;
   out["simplices_per_dim"] = per_dim;
@@ -116,6 +121,8 @@ std::string to_json(const Statistics& s) {
     out["smallest_singular_point"] = s.boundary->smallest_singular_point;
     out["singular_points"] = s.boundary->singular_points;
   }
+  out["interior_singular_value"] = s.interior_singular_value;
+  out["interior_singular_points"] = s.interior_singular_points;
   if (!s.charts.empty()) {
     out["charts"] = charts_json(s.charts);
     out["seams"] = seams_json(s.seams);

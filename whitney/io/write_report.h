@@ -68,6 +68,9 @@ struct Statistics {
   int ambient_dim = 0, intrinsic_dim = 0;
   std::optional<double> edge_length;  ///< of the triangulation (a length)
   std::size_t num_seeds_used = 0, num_seeds_merged = 0, num_seeds_dropped = 0;
+  std::size_t num_seeds_too_small = 0;           ///< that lie on parts too small for the edge length, see SeedReport
+  std::vector<double> too_small_point;           ///< where the first of them lies
+  double too_small_edge_length = 0;              ///< at which all of them would be met; 0: not known
   std::map<int, std::size_t> simplices_per_dim;  ///< ambient simplices that the manifold meets, by their dimension
   Topology topology;                             ///< of the mesh that is written
   std::size_t oracle_evaluations = 0;            ///< of f by the trace
@@ -78,7 +81,10 @@ struct Statistics {
   std::string stop_reason = "none";
   std::optional<CertificateStatistics> certificate{};
   std::optional<BoundaryStatistics> boundary{};  ///< when there are inequalities, or the box cut something off
-  std::vector<ChartStatistics> charts{};         ///< of a manifold made of charts; ambient_dim is that of the charts
+  /// Points where Df is not of full rank, see check_interior, and the smallest singular value found.
+  std::vector<std::vector<double>> interior_singular_points{};
+  double interior_singular_value = 1;
+  std::vector<ChartStatistics> charts{};  ///< of a manifold made of charts; ambient_dim is that of the charts
   std::vector<SeamStatistics> seams{};
   std::optional<ComplexQuality> quality{};  ///< of the mesh that is written; angles in radians
 };
