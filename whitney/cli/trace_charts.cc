@@ -55,7 +55,10 @@ int run_trace_charts(const Problem& problem, const TraceArguments& arguments) {
     if (piece.traced.stop_reason != StopReason::kNone && stop != StopReason::kMaxSimplices)
       stop = piece.traced.stop_reason;
     const CutRegularity regularity = check_cuts(chart.function, piece.traced, edge_length);
-    singular = singular || !regularity.singular.empty();
+    const CutRegularity interior = check_interior(chart.function, piece.traced, edge_length);
+    for (const SingularCut& point : interior.singular) statistics.interior_singular_points.push_back(point.point);
+    statistics.interior_singular_value = std::min(statistics.interior_singular_value, interior.smallest_singular_value);
+    singular = singular || !regularity.singular.empty() || !interior.singular.empty();
     statistics.charts.push_back(statistics_of(chart, piece, regularity));
     pieces.push_back(chart_piece(chart.name,
                                  arguments.mesh == "barycentric" ? barycentric_subdivision(piece.complex, &piece.strata)
@@ -121,6 +124,9 @@ int run_trace_charts(const Problem& problem, const TraceArguments& arguments) {
       for (const auto& point : chart.singular_points)
         std::cout << "the boundary of chart " << chart.name << " is SINGULAR at " << point_text(point)
                   << ": what was glued there is one resolution of it among several\n";
+    std::cout << too_small_text(statistics);
+    for (const auto& point : statistics.interior_singular_points)
+      std::cout << "the zero set of a chart is SINGULAR at " << point_text(point) << ", in the chart's coordinates\n";
     if (stopped) std::cout << "stopped early (" << statistics.stop_reason << "): the pieces are not glued\n";
     if (stop == StopReason::kBox) std::cout << "the manifold reaches the box of a chart and was cut there\n";
     for (const std::string& file : arguments.outputs) std::cout << "written: " << file << "\n";

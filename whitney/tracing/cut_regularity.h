@@ -43,8 +43,8 @@ CutRegularity check_cuts(const Function& f, const TraceResult& trace, double edg
 /// whose determinant is about |det| of Df on the simplex; its largest value among the simplices of a small block of the
 /// lattice is small where Df is. The search starts in the blocks where that is least, and in those where it is least
 /// against the blocks around: one start for 2000 simplices, 40 at least, 200 at most. Multiplying components of f by
-/// powers of two changes nothing. A point found counts when it is within 1.5 edge lengths of a point of the trace and
-/// in the domain.
+/// powers of two changes nothing. A point found counts when it is within 3 edge lengths of a point of the trace (the
+/// tip of a cusp may be cut off) and in the domain.
 CutRegularity check_interior(const Function& f, const TraceResult& trace, double edge_length);
 
 }  // namespace whitney

@@ -18,9 +18,9 @@ using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::Ro
 // A trace passes a point of the manifold that it sees within about the diameter of a d-simplex, the longest edge.
 constexpr double kNear = 1.25;  // edge lengths
 // How far a seed point that leads nowhere may be from the manifold and still be taken for a point of it.
-constexpr double kSeedSlack = 2;                // edge lengths
-constexpr std::size_t kFinerSimplices = 200;    // looked at in a triangulation of half the edge length
-constexpr std::size_t kMaxFinerSearches = 400;  // in all: what one number is worth
+constexpr double kSeedSlack = 2;              // edge lengths
+constexpr std::size_t kFootSimplices = 500;   // looked at around a foot
+constexpr std::size_t kFinerSimplices = 200;  // looked at in a triangulation of half the edge length
 constexpr int kMaxHalvings = 30;
 
 double distance(std::span<const double> a, std::span<const double> b) {
@@ -206,20 +206,30 @@ SeedStart SeedStarter::find(std::span<const double> seed, std::size_t limit) {
   if (foot.empty() || (found ? near(triangulation_, crossing, foot) : distance(foot, seed) > kSeedSlack * L))
     return start;
   if (!claims(foot)) return start;
-  if (find_near(triangulation_, foot, limit, crossing)) {
+  if (find_near(triangulation_, foot, std::min(limit, kFootSimplices), crossing)) {
     start.crossings.push_back(crossing);
     start.reason.clear();
     return start;
   }
   start.unseen = foot;
-  for (int halvings = 1; halvings <= kMaxHalvings && ++finer_searches_ <= kMaxFinerSearches; ++halvings) {
-    const double factor = std::ldexp(1.0, -halvings);
-    const coxeter::Triangulation finer(factor * triangulation_.linear(), triangulation_.offset());
-    if (!find_near(finer, foot, std::min(limit, kFinerSimplices), crossing)) continue;
-    start.finer_edge_length = factor * L;
-    break;
-  }
+  start.finer_edge_length = finer_edge_length(foot);
   return start;
+}
+
+// Halves the edge length until the part of f = 0 at the foot is met; for feet close together once.
+double SeedStarter::finer_edge_length(std::span<const double> foot) {
+  const double L = triangulation_.edge_length();
+  for (const auto& [known, finer] : unseen_)
+    if (distance(known, foot) < L) return finer;
+  double finer = 0;
+  Crossing crossing;
+  for (int halvings = 1; halvings <= kMaxHalvings && finer == 0; ++halvings) {
+    const double factor = std::ldexp(1.0, -halvings);
+    const coxeter::Triangulation halved(factor * triangulation_.linear(), triangulation_.offset());
+    if (find_near(halved, foot, kFinerSimplices, crossing)) finer = factor * L;
+  }
+  unseen_.emplace_back(std::vector<double>(foot.begin(), foot.end()), finer);
+  return finer;
 }
 
 bool SeedStarter::find_full(std::span<const double> seed, std::size_t limit,

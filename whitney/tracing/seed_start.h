@@ -5,6 +5,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <coxeter/base/error.h>
@@ -62,6 +63,7 @@ class SeedStarter {
   std::vector<double> foot_of(std::span<const double> x);
   bool box_holds(std::span<const double> x, double slack) const;
   bool claims(std::span<const double> foot) const;
+  double finer_edge_length(std::span<const double> foot);
 
   const Function& f_;
   const Domain& domain_;
@@ -69,7 +71,7 @@ class SeedStarter {
   Inside inside_;
   SeedSearch search_;
   std::size_t other_evaluations_ = 0;
-  std::size_t finer_searches_ = 0;
+  std::vector<std::pair<std::vector<double>, double>> unseen_;  // and the finer edge length
 };
 
 }  // namespace whitney
