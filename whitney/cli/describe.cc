@@ -127,11 +127,28 @@ std::string describe_singular_charts(const Report& report) {
 }
 
 std::string describe_seeds(const Report& report) {
-  if (report.seeds.searched)
-    return "seeds: searched for (" + std::to_string(report.seeds.num_starts) + " starts), " +
-           std::to_string(report.seeds.num_used) + " used; that every component was found is likely, not proved\n";
+  const SeedSummary& seeds = report.seeds;
   std::string text;
-  for (const std::string& seed : report.seeds.dropped) text += seed + "\n";
+  if (seeds.searched)
+    text = "seeds: searched for (" + std::to_string(seeds.num_starts) + " starts), " + std::to_string(seeds.num_used) +
+           " used; that every component was found is likely, not proved\n";
+  for (const std::string& seed : seeds.dropped) text += seed + "\n";
+  if (seeds.num_too_small == 0) return text;
+  char finer[32];
+  std::snprintf(finer, sizeof finer, "%.3g", seeds.finer_edge_length);
+  return text + std::to_string(seeds.num_too_small) + (seeds.num_too_small == 1 ? " seed lies" : " seeds lie") +
+         " on parts too small for this edge length, e.g. at " + point_text(seeds.too_small_point) +
+         (seeds.finer_edge_length > 0 ? ": try L <= " + std::string(finer) : "") + "\n";
+}
+
+std::string describe_singular_points(const Report& report) {
+  std::string text;
+  for (const auto& point : report.interior_singular_points)
+    text += report.charts.empty() ? "the zero set is SINGULAR at " + point_text(point) +
+                                        ": it crosses or touches itself or has a tip there, and the mesh is one "
+                                        "resolution of it among several\n"
+                                  : "the zero set of a chart is SINGULAR at " + point_text(point) +
+                                        ", in the chart's coordinates\n";
   return text;
 }
 

@@ -21,6 +21,9 @@ std::string describe_boundary(const BoundarySummary& boundary);
 std::string describe_seams(const Report& report);
 std::string describe_singular_charts(const Report& report);
 
+/// Where the zero set is singular.
+std::string describe_singular_points(const Report& report);
+
 /// Whether seeds were searched for, which were dropped.
 std::string describe_seeds(const Report& report);
 

@@ -42,7 +42,7 @@ std::string describe(const Problem& problem, const TracedProblem& result) {
     text << "R^" << d << ", " << equations << ", edge length " << *report.edge_length << ": " << report.simplices_met
          << " simplices of dimension " << k << " meet the zero set, f evaluated at " << report.oracle_evaluations
          << " lattice vertices, " << seconds << " s\n";
-  text << describe_topology(report) << describe_seeds(report);
+  text << describe_topology(report) << describe_seeds(report) << describe_singular_points(report);
   if (report.boundary) text << describe_boundary(*report.boundary);
   text << describe_singular_charts(report) << describe_stop(report);
   return text.str();

@@ -124,6 +124,8 @@ void add_topology(const Report& r, Json& out) {
     out["smallest_singular_point"] = r.boundary->smallest_singular_point;
     out["singular_points"] = r.boundary->singular_points;
   }
+  out["interior_singular_value"] = r.interior_searched ? Json(r.interior_singular_value) : Json(nullptr);
+  out["interior_singular_points"] = r.interior_searched ? Json(r.interior_singular_points) : Json(nullptr);
   if (!r.charts.empty()) {
     out["charts"] = charts_json(r.charts);
     out["seams"] = seams_json(r.seams);
@@ -150,6 +152,11 @@ std::string to_json(const Report& r) {
   out["num_seeds_used"] = r.seeds.num_used;
   out["num_seeds_merged"] = r.seeds.num_merged;
   out["num_seeds_dropped"] = r.seeds.num_dropped;
+  out["num_seeds_too_small"] = r.seeds.num_too_small;
+  if (r.seeds.num_too_small > 0) {
+    out["too_small_point"] = r.seeds.too_small_point;
+    out["too_small_edge_length"] = r.seeds.finer_edge_length > 0 ? Json(r.seeds.finer_edge_length) : Json(nullptr);
+  }
   out["seeds_searched"] = r.seeds.searched;
   Json per_dim = Json::object();
   for (const auto& [dim, count] : r.simplices_per_dim) per_dim[std::to_string(dim)] = count;

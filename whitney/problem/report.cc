@@ -7,7 +7,7 @@
 namespace whitney {
 
 bool Report::singular() const {
-  return (boundary && !boundary->singular_points.empty()) ||
+  return !interior_singular_points.empty() || (boundary && !boundary->singular_points.empty()) ||
          std::any_of(charts.begin(), charts.end(), [](const auto& chart) { return !chart.singular_points.empty(); });
 }
 

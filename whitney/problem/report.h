@@ -91,6 +91,9 @@ struct SeedSummary {
   bool searched = false;       ///< none were given; that every component was found is then likely, not proved
   std::size_t num_starts = 0;  ///< Newton iterations of that search
   std::size_t num_used = 0, num_merged = 0, num_dropped = 0;
+  std::size_t num_too_small = 0;       ///< that lie on parts too small for the edge length, see SeedReport
+  std::vector<double> too_small_point;  ///< where the first of them lies, d
+  double finer_edge_length = 0;         ///< at which all of them would be met, as far as that is known; 0: not known
   std::vector<std::string> dropped;  ///< of seeds that were given: "seed point 3 dropped: <why>"
 };
 
@@ -114,13 +117,18 @@ struct Report {
   std::vector<Omission> left_out{};
   std::optional<CertificateSummary> certificate{};
   std::optional<BoundarySummary> boundary{};  ///< when there are inequalities, or the box cut something off
+  /// Points where f = 0 is no submanifold because Df is not of full rank, d each (in the coordinates of their chart),
+  /// and the smallest singular value found, see check_interior.
+  std::vector<std::vector<double>> interior_singular_points{};
+  double interior_singular_value = 1;
+  bool interior_searched = false;     ///< those points were looked for
   std::vector<ChartSummary> charts{};         ///< of a manifold made of charts; ambient_dim is that of the charts
   std::vector<SeamSummary> seams{};
   std::optional<ComplexQuality> quality{};  ///< of the mesh; angles in radians
 
   /// A limit, or the caller, ended the run before it was done.
   bool stopped() const { return stop_reason != StopReason::kNone && stop_reason != StopReason::kBox; }
-  /// A point was found where the boundary crosses or touches itself.
+  /// A point was found where the manifold or its boundary crosses or touches itself.
   bool singular() const;
 };
 

@@ -43,6 +43,7 @@ std::vector<ChartPiece> trace_charts(const ChartAtlas& atlas, const coxeter::Tri
       throw InvalidInput("chart \"" + chart.name + "\": " + error.what());
     }
     const CutRegularity regularity = check_cuts(chart.function, piece.traced, triangulation.edge_length());
+    search_interior(chart.function, piece.traced, triangulation.edge_length(), budget, report);
     report.charts.push_back(summarize(chart, piece, regularity));
     pieces.push_back(chart_piece(chart.name,
                                  options.mesh == MeshKind::kBarycentric

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include <coxeter/base/error.h>
+#include <whitney/tracing/cut_regularity.h>
 #include <whitney/tracing/trace.h>
 
 namespace whitney {
@@ -18,6 +19,12 @@ void count_seeds(const TracedPiece& piece, Report& report) {
     seeds.num_used += seed.outcome == SeedReport::Outcome::kUsed;
     seeds.num_merged += seed.outcome == SeedReport::Outcome::kMerged;
     seeds.num_dropped += seed.outcome == SeedReport::Outcome::kDropped;
+    if (seed.outcome == SeedReport::Outcome::kTooSmall) {
+      if (seeds.num_too_small++ == 0) seeds.too_small_point = seed.unseen;
+      if (seed.finer_edge_length > 0)
+        seeds.finer_edge_length = seeds.finer_edge_length > 0 ? std::min(seeds.finer_edge_length, seed.finer_edge_length)
+                                                              : seed.finer_edge_length;
+    }
     if (!piece.searched && seed.outcome == SeedReport::Outcome::kDropped)
       seeds.dropped.push_back("seed point " + std::to_string(i + 1) + " dropped: " + seed.reason);
   }
@@ -34,6 +41,17 @@ double edge_length_of(const std::optional<double>& asked, const std::optional<do
   double side = 0;
   for (std::size_t c = 0; c < box->lower.size(); ++c) side = std::max(side, box->upper[c] - box->lower[c]);
   return side / 30;
+}
+
+void search_interior(const Function& f, const TraceResult& traced, double edge_length, Budget& budget, Report& report) {
+  if (!budget.allows("singular points of the interior", 0)) {
+    report.interior_searched = false;
+    return;
+  }
+  const CutRegularity interior = check_interior(f, traced, edge_length);
+  report.interior_searched = interior.searched;
+  for (const SingularCut& point : interior.singular) report.interior_singular_points.push_back(point.point);
+  report.interior_singular_value = std::min(report.interior_singular_value, interior.smallest_singular_value);
 }
 
 std::string TracedPiece::why_empty() const {

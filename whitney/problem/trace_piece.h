@@ -46,6 +46,9 @@ struct TracedPiece {
 TracedPiece trace_piece(const ZeroSetPiece& piece, const coxeter::Triangulation& triangulation,
                         std::size_t found_before, double work_bytes, Budget& budget, Report& report);
 
+/// Looks for points where f = 0 is singular, if the budget allows, and adds them to the report.
+void search_interior(const Function& f, const TraceResult& traced, double edge_length, Budget& budget, Report& report);
+
 /// The edge length asked for, or that of the problem, or the longest side of the box / 30. Throws InvalidInput when
 /// there is none of them.
 double edge_length_of(const std::optional<double>& asked, const std::optional<double>& of_problem,

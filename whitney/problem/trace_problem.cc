@@ -102,6 +102,7 @@ TracedProblem trace_problem(const Problem& problem, const TraceProblemOptions& o
       report.boundary =
           summarize_boundary(traced.piece.strata, result.mesh,
                              check_cuts(function, traced.piece.traced, triangulation.edge_length()), problem);
+    search_interior(function, traced.piece.traced, triangulation.edge_length(), budget, report);
     report_topology(result.mesh, options.topology, budget, report);
     if (options.mesh == MeshKind::kCells) count_cells(traced.piece.complex, report);
     budget.lap(report.seconds, "topology");

@@ -5,7 +5,6 @@
 #include <bit>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
 #include <utility>
 
@@ -18,7 +17,7 @@
 #include <whitney/tracing/barycentric_kernel.h>
 #include <whitney/tracing/boundary_trace.h>
 #include <whitney/tracing/exact_pivot.h>
-#include <whitney/tracing/seed_search.h>
+#include <whitney/tracing/seed_start.h>
 
 namespace whitney {
 
@@ -185,10 +184,7 @@ class Tracer : private LatticeValues {
   coxeter::PartLists part_lists(std::size_t slot) {
     return {&elements_[slot * (d_ + 1)], &starts_[slot * (k_ + 2)], &numbers_[slot * (k_ + 2)]};
   }
-  OracleError not_finite(const std::string& what, double value, const double* x) const;
   bool box_holds(const double* x) const;
-  bool seed_value(const std::int32_t* z, double* values);
-  bool crossing_inside(const Crossing& crossing);
   bool should_stop();
   double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
   TraceResult result();
@@ -249,17 +245,6 @@ class Tracer : private LatticeValues {
 };
 
 template <class Shape>
-OracleError Tracer<Shape>::not_finite(const std::string& what, double value, const double* x) const {
-  std::string at;
-  char number[32];
-  for (int c = 0; c < d_; ++c) {
-    std::snprintf(number, sizeof number, "%s%.17g", c ? ", " : "", x[c]);
-    at += number;
-  }
-  return OracleError(what + " is " + (std::isnan(value) ? "NaN" : "infinite") + " at (" + at + ")");
-}
-
-template <class Shape>
 void Tracer<Shape>::evaluate_new_vertices() {
   const std::size_t known = evaluated_, size = vertices_.size();
   if (known == size) return;
@@ -281,7 +266,7 @@ void Tracer<Shape>::evaluate_new_vertices() {
     double* values = value(vertex);
     if (!domain_.empty()) {
       for (std::size_t j = 0; j < num_given_; ++j) {
-        if (!std::isfinite(g[j])) throw not_finite("inequality " + std::to_string(j), g[j], x);
+        if (!std::isfinite(g[j])) throw not_finite("inequality " + std::to_string(j), g[j], {x, std::size_t(d_)});
         values[k_ + j] = g[j];
       }
       std::uint64_t* mask = mask_at(vertex);
@@ -293,7 +278,8 @@ void Tracer<Shape>::evaluate_new_vertices() {
       const double component = f_values_[i * k_ + r];
       values[r] = component;
       if (std::isfinite(component)) continue;
-      if (!boxed || box_holds(x)) throw not_finite("component " + std::to_string(r + 1) + " of f", component, x);
+      if (!boxed || box_holds(x))
+        throw not_finite("component " + std::to_string(r + 1) + " of f", component, {x, std::size_t(d_)});
       unreachable_[vertex] = true;
     }
   }
@@ -782,48 +768,6 @@ void Tracer<Shape>::report_waiting(std::size_t first) {
   }
 }
 
-// f at a vertex near a seed point. False where it has no value, or far outside the box.
-template <class Shape>
-bool Tracer<Shape>::seed_value(const std::int32_t* z, double* values) {
-  std::vector<double> x(d_);
-  triangulation_.cartesian({z, std::size_t(d_)}, x);
-  bool in_box = true;
-  if (const std::optional<Box>& box = domain_.box()) {
-    const double edge = triangulation_.edge_length();
-    in_box = box_holds(x.data());
-    for (int c = 0; c < d_; ++c)
-      if (!(x[c] >= box->lower[c] - edge && x[c] <= box->upper[c] + edge)) return false;
-  }
-  f_.evaluate(x, {values, std::size_t(k_)});
-  for (int r = 0; r < k_; ++r) {
-    if (std::isfinite(values[r])) continue;
-    if (!in_box) return false;
-    throw not_finite("component " + std::to_string(r + 1) + " of f", values[r], x.data());
-  }
-  return true;
-}
-
-// Whether a simplex found near a seed point meets f = 0 inside the domain. Its vertices are not entered: they may turn
-// out to be no part of the result.
-template <class Shape>
-bool Tracer<Shape>::crossing_inside(const Crossing& crossing) {
-  const int m = domain_.num_inequalities();
-  std::vector<double> x(d_), rows;
-  std::vector<std::int32_t> z = crossing.base;
-  for (int q = 0; q <= k_; ++q) {
-    triangulation_.cartesian(z, x);
-    const std::vector<double> g = domain_.values(x);
-    for (int j = 0; j < m; ++j) {
-      if (!std::isfinite(g[j])) throw not_finite(domain_.name(j), g[j], x.data());
-      rows.push_back(-g[j]);
-    }
-    rows.resize(rows.size() + k_);
-    f_.evaluate(x, {&rows[rows.size() - k_], std::size_t(k_)});
-    for (int c = 0; c < d_; ++c) z[c] += crossing.parts[c] == q;
-  }
-  return boundary_->inside(std::span<const double>(rows));
-}
-
 template <class Shape>
 TraceResult Tracer<Shape>::run(std::span<const double> seed_points) {
   partitions_.resize(kShort ? kBatch : 0);
@@ -842,21 +786,20 @@ TraceResult Tracer<Shape>::run(std::span<const double> seed_points) {
   y_.resize(d_);
   point_.resize(d_);
 
-  SeedSearch search(triangulation_, k_, [&](const std::int32_t* z, double* values) { return seed_value(z, values); });
-  if (boundary_) search.accept_only([&](const Crossing& crossing) { return crossing_inside(crossing); });
-
+  SeedStarter starter(f_, domain_, triangulation_,
+                      [&](std::span<const double> rows) { return boundary_->inside(rows); });
   TraceResult out;
   for (std::size_t i = 0; i + d_ <= seed_points.size() && stop_ == StopReason::kNone; i += d_) {
-    SeedReport report;
-    Crossing crossing;
     const std::span<const double> seed = seed_points.subspan(i, d_);
-    bool started = false, found = search.search(seed, options_.max_seed_simplices, crossing, report.reason);
-    if (found) {
-      started = start_from(crossing);
-    } else if (boundary_) {
+    SeedStart start = starter.find(seed, options_.max_seed_simplices);
+    SeedReport report{SeedReport::Outcome::kDropped, std::move(start.reason), std::move(start.unseen),
+                      start.finer_edge_length};
+    bool started = false, found = !start.crossings.empty();
+    for (const Crossing& crossing : start.crossings) started = start_from(crossing) || started;
+    if (!found && boundary_) {
       const std::size_t known = boundary_->size();
-      found = search.search_full(seed, std::min(options_.max_seed_simplices, kCornerSeedSimplices),
-                                 [&](const coxeter::Simplex& full) { return boundary_->find_in(full); });
+      found = starter.find_full(seed, std::min(options_.max_seed_simplices, kCornerSeedSimplices),
+                                [&](const coxeter::Simplex& full) { return boundary_->find_in(full); });
       started = boundary_->size() > known;
     }
     if (found) {
@@ -864,13 +807,17 @@ TraceResult Tracer<Shape>::run(std::span<const double> seed_points) {
       report.reason.clear();
       if (grow() && boundary_) grow_boundary();
     }
+    if (!report.unseen.empty()) {
+      report.outcome = SeedReport::Outcome::kTooSmall;
+      report.reason = "f = 0 passes there, but the part of it is too small for this edge length";
+    }
     out.seeds.push_back(std::move(report));
   }
   while (out.seeds.size() * d_ < seed_points.size())
-    out.seeds.push_back({SeedReport::Outcome::kDropped, "the trace was stopped before its turn"});
+    out.seeds.push_back({.outcome = SeedReport::Outcome::kDropped, .reason = "the trace was stopped before its turn"});
   TraceResult traced = result();
   traced.seeds = std::move(out.seeds);
-  traced.seed_evaluations = search.evaluations();
+  traced.seed_evaluations = starter.evaluations();
   traced.seconds = seconds();
   return traced;
 }

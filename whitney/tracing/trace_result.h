@@ -18,12 +18,18 @@ namespace whitney {
 /// What became of a seed point.
 struct SeedReport {
   enum class Outcome {
-    kUsed,    ///< a trace started from it
-    kMerged,  ///< the simplex found near it had been traced already
-    kDropped  ///< no simplex near it meets the zero set of the interpolant; `reason` says what was tried
+    kUsed,     ///< a trace started from it
+    kMerged,   ///< the simplex found near it had been traced already
+    kDropped,  ///< no simplex near it meets the zero set of the interpolant; `reason` says what was tried
+    /// f = 0 passes regularly within two edge lengths of it, in the domain, but no simplex within 1.25 edge lengths of
+    /// that place meets the zero set of the interpolant: that part of the manifold is too small for this edge length
+    /// and was not traced. (A simplex farther away may have been, and a trace started there.)
+    kTooSmall
   };
   Outcome outcome = Outcome::kDropped;
-  std::string reason;
+  std::string reason{};          ///< of kDropped and kTooSmall
+  std::vector<double> unseen{};  ///< kTooSmall: where f = 0 passes, d numbers
+  double finer_edge_length = 0;  ///< kTooSmall: an edge length at which that part would be met; 0: not known
 };
 
 /// The k-simplices of a triangulation that meet the zero set of the piecewise-linear interpolant of f inside the
