@@ -2,36 +2,78 @@
 #include "architecture.h"
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <fstream>
 #include <iterator>
 #include <map>
 #include <regex>
+#include <set>
 #include <sstream>
 #include <stdexcept>
+
+#include "source_text.h"
 
 namespace whitney::architecture {
 namespace fs = std::filesystem;
 
 namespace {
 
-/// The layers, lowest first. A file belongs to the last one whose prefix fits.
-constexpr std::array<const char*, 5> kLayers = {"coxeter/", "perturbation/", "whitney/", "whitney/io/", "whitney/cli/"};
-constexpr std::size_t kIo = 3, kCli = 4;
+/// The arrows: a room, and the rooms that its files may include beside their own. coxeter/base is open to all.
+const std::map<std::string, std::set<std::string>>& arrows() {
+  static const std::set<std::string> kCoxeter = {"coxeter", "coxeter/faces", "coxeter/tables"};
+  const auto with = [](std::set<std::string> rooms, const std::set<std::string>& more) {
+    rooms.insert(more.begin(), more.end());
+    return rooms;
+  };
+  static const std::set<std::string> kBelowProblem =
+      with(kCoxeter, {"perturbation", "whitney/topology", "whitney/functions", "whitney/manifolds", "whitney/cells",
+                      "whitney/tracing", "whitney/construction", "whitney/atlas"});
+  static const std::map<std::string, std::set<std::string>> kArrows = {
+      {"coxeter/base", {}},
+      {"coxeter", {}},
+      {"coxeter/faces", {"coxeter"}},
+      {"coxeter/tables", {}},
+      {"perturbation", kCoxeter},
+      {"whitney/topology", {}},
+      {"whitney/functions", {}},
+      {"whitney/manifolds", {"whitney/functions", "perturbation"}},
+      {"whitney/cells", with(kCoxeter, {"whitney/topology"})},
+      {"whitney/tracing", with(kCoxeter, {"whitney/functions", "whitney/cells", "whitney/topology"})},
+      {"whitney/construction",
+       with(kCoxeter, {"whitney/manifolds", "whitney/cells", "whitney/topology", "whitney/functions", "perturbation"})},
+      {"whitney/atlas", {"whitney/functions", "whitney/cells", "whitney/topology"}},
+      {"whitney/problem", kBelowProblem},
+      {"whitney/io", with(kBelowProblem, {"whitney/problem", "whitney/io/formats"})},
+      {"whitney/io/formats", with(kBelowProblem, {"whitney/problem", "whitney/io"})},
+      {"whitney/cli", {"whitney/io", "whitney/problem"}},
+  };
+  return kArrows;
+}
+
+/// Single headers that are open to a room which does not reach the rest of theirs.
+const std::set<std::pair<std::string, std::string>> kSingleHeaders = {
+    {"whitney/tracing", "perturbation/interval.h"},
+};
+
+/// What whitney/cli may include beside problem/ and io/: values without an algorithm, or the call that a command is.
+const std::set<std::string> kPlainHeaders = {"perturbation/parameters.h"};
+
+constexpr const char* kCli = "whitney/cli";
+constexpr const char* kParallel = "coxeter/base/parallel.";
+constexpr const char* kInterval = "perturbation/interval.";
+constexpr const char* kOpenMeshAdaptor = "whitney/io/openmesh.h";
 
 bool starts_with(const std::string& text, const std::string& prefix) {
   return text.compare(0, prefix.size(), prefix) == 0;
 }
 
-/// The layer of a path relative to the root, or kLayers.size() if it is not ours.
-std::size_t layer_of(const std::string& path) {
-  std::size_t layer = kLayers.size();
-  for (std::size_t i = 0; i < kLayers.size(); ++i) {
-    if (starts_with(path, kLayers[i])) layer = i;
-  }
-  return layer;
+/// The folder of a path relative to the root.
+std::string room_of(const std::string& path) { return fs::path(path).parent_path().generic_string(); }
+
+bool is_ours(const std::string& path) {
+  return starts_with(path, "coxeter/") || starts_with(path, "perturbation/") || starts_with(path, "whitney/");
 }
+
+bool is_in_io(const std::string& room) { return room == "whitney/io" || room == "whitney/io/formats"; }
 
 struct Include {
   std::size_t line;
@@ -76,51 +118,112 @@ class Checker {
       }
     }
     if (!found) throw std::runtime_error(root.string() + " has none of the folders coxeter, perturbation, whitney");
+    for (const Exception& header : read_exceptions(root / "tests/architecture/internal_headers.txt")) {
+      internal_.insert(header.name);
+    }
   }
 
   std::vector<Violation> run() {
     for (const auto& [path, source] : sources_) {
-      check_includes(path, source);
-      if (layer_of(path) < kIo) check_formats(path, source);
+      const std::string room = room_of(path);
+      if (arrows().count(room) == 0) report("room", path, 1, room + " is not one of the rooms");
+      check_arrows(path, source);
+      if (room == kCli) check_program(path, source);
+      if (is_public(path)) check_public(path, source);
+      check_libraries(path, source);
+      check_formats(path, source);
+      if (!is_in_io(room) && room != kCli) {
+        check_words("printing", path, source, {kPrinting}, "nothing below whitney/io prints");
+      }
+      find_cycles(path);
     }
-    for (const auto& [path, source] : sources_) find_cycles(path);
     std::sort(violations_.begin(), violations_.end());
+    violations_.erase(std::unique(violations_.begin(), violations_.end()), violations_.end());
     return violations_;
   }
 
  private:
-  void report(const std::string& path, std::size_t line, const std::string& what) {
-    violations_.push_back(path + ":" + std::to_string(line) + ": " + what);
+  void report(const std::string& rule, const std::string& path, std::size_t line, const std::string& what) {
+    violations_.push_back({rule, path, line, what});
   }
 
-  void check_includes(const std::string& path, const Source& source) {
-    const std::size_t layer = layer_of(path);
-    const bool public_header = fs::path(path).extension() == ".h" && layer != kCli;
+  bool is_public(const std::string& path) const {
+    const std::string room = room_of(path);
+    return fs::path(path).extension() == ".h" && room != kCli && room != "whitney/io/formats" &&
+           internal_.count(path) == 0;
+  }
+
+  void check_arrows(const std::string& path, const Source& source) {
+    const std::string room = room_of(path);
+    const auto reach = arrows().find(room);
+    if (reach == arrows().end()) return;
     for (const Include& include : source.includes) {
-      const std::size_t target = layer_of(include.path);
-      if (target < kLayers.size() && target > layer) {
-        report(path, include.line, "upward include of " + include.path);
+      if (!is_ours(include.path)) continue;
+      const std::string target = room_of(include.path);
+      const bool plain = room == kCli && kPlainHeaders.count(include.path) > 0;
+      if (target == room || target == "coxeter/base" || plain || reach->second.count(target) > 0 ||
+          kSingleHeaders.count({room, include.path}) > 0) {
+        continue;
       }
-      if (starts_with(include.path, "whitney/io/internal/") && layer != kIo) {
-        report(path, include.line, "include of " + include.path + ", which is internal to whitney/io");
+      report("arrow", path, include.line, "no arrow from " + room + " to " + target + ": include of " + include.path);
+    }
+  }
+
+  void check_program(const std::string& path, const Source& source) {
+    static const std::regex kTools(
+        R"(^(cmath|complex|numeric|random|valarray|queue|stack|thread|mutex|future)$|^(Eigen|boost|CGAL|ginac|tbb)/|^gmp)");
+    for (const Include& include : source.includes) {
+      if (std::regex_search(include.path, kTools)) {
+        report("program", path, include.line, include.path + ": whitney/cli has no algorithm; call whitney/problem");
       }
-      for (const char* library : {"CGAL/", "ginac/", "OpenMesh/", "nlohmann/"}) {
-        if (public_header && starts_with(include.path, library)) {
-          report(path, include.line, "a public header includes " + include.path);
-        }
+    }
+  }
+
+  void check_public(const std::string& path, const Source& source) {
+    static const std::regex kLibraries(
+        R"(^(CGAL|ginac|OpenMesh|nlohmann|tbb|oneapi|Eigen|unsupported|boost/multiprecision)/|^(boost/multiprecision|gmp))");
+    static const std::regex kFlags(
+        R"(\b(__AVX\w*|__SSE\w*|__SSSE\w*|__BMI\w*|__FMA__|__F16C__|__POPCNT__|__LZCNT__|__ARM_\w*|__aarch64__|EIGEN_\w+|immintrin|\w+mmintrin|arm_neon)\b)");
+    for (const Include& include : source.includes) {
+      if (path == kOpenMeshAdaptor && starts_with(include.path, "OpenMesh/")) continue;
+      if (std::regex_search(include.path, kLibraries)) {
+        report("public", path, include.line, "a public header includes " + include.path);
       }
+      if (is_ours(include.path) && !is_public(include.path)) {
+        report("public", path, include.line, "a public header includes " + include.path + ", which is not public");
+      }
+    }
+    check_words("flags", path, source, {kFlags}, "a public header depends on the flags it is compiled with");
+  }
+
+  void check_libraries(const std::string& path, const Source& source) {
+    static const std::regex kTbb(R"(\b(tbb::|oneapi/|tbb/|TBB_\w+))");
+    static const std::regex kIntervals(
+        R"(\b(CGAL/Interval_\w+|Interval_nt\w*|Protect_FPU_rounding|FPU_\w+|boost/numeric/interval|numeric::interval|mpfi\w*|fesetround)\b)");
+    if (!starts_with(path, kParallel)) {
+      check_words("threads", path, source, {kTbb}, "threads come through coxeter/base/parallel.h");
+    }
+    if (!starts_with(path, kInterval)) {
+      check_words("interval", path, source, {kIntervals}, "intervals come through perturbation/interval.h");
     }
   }
 
   void check_formats(const std::string& path, const Source& source) {
     static const std::regex kWords(R"(\b(OpenMesh|nlohmann|[io]?fstream|fopen)\b)");
     static const std::regex kExtensions(R"re("[^"]*\.(off|noff|ply|obj|stl|vtu|mesh|pov|json|csv)")re");
+    const std::string room = room_of(path);
+    if (is_in_io(room)) return;
+    check_words("format", path, source, {kWords}, "files and their formats belong in whitney/io");
+    if (room != kCli)
+      check_words("format", path, source, {kExtensions}, "files and their formats belong in whitney/io");
+  }
+
+  void check_words(const std::string& rule, const std::string& path, const Source& source,
+                   const std::vector<std::regex>& patterns, const std::string& why) {
     for (std::size_t i = 0; i < source.lines.size(); ++i) {
       std::smatch match;
-      for (const auto& pattern : {kWords, kExtensions}) {
-        if (std::regex_search(source.lines[i], match, pattern)) {
-          report(path, i + 1, match[1].str() + ": files and their formats belong in whitney/io");
-        }
+      for (const std::regex& pattern : patterns) {
+        if (std::regex_search(source.lines[i], match, pattern)) report(rule, path, i + 1, match[1].str() + ": " + why);
       }
     }
   }
@@ -132,7 +235,7 @@ class Checker {
     if (state == State::kOpen) {
       std::string cycle;
       for (auto i = std::find(trail_.begin(), trail_.end(), path); i != trail_.end(); ++i) cycle += *i + " -> ";
-      report(path, 1, "include cycle " + cycle + path);
+      report("cycle", path, 1, "include cycle " + cycle + path);
       return;
     }
     state = State::kOpen;
@@ -146,7 +249,11 @@ class Checker {
 
   enum class State { kNew, kOpen, kDone };
 
+  inline static const std::regex kPrinting{
+      R"(\b(iostream|ostream|istream|syncstream|cout|cerr|clog|cin|printf|fprintf|vprintf|puts|fputs|putchar|fputc|fwrite|perror|stdout|stderr)\b)"};
+
   std::map<std::string, Source> sources_;
+  std::set<std::string> internal_;
   std::map<std::string, State> state_;
   std::vector<std::string> trail_;
   std::vector<Violation> violations_;
@@ -154,39 +261,37 @@ class Checker {
 
 }  // namespace
 
-std::string without_comments(const std::string& text) {
-  std::string code;
-  code.reserve(text.size());
-  const auto at = [&text](std::size_t i) { return i < text.size() ? text[i] : '\0'; };
-  for (std::size_t i = 0; i < text.size();) {
-    const char c = text[i];
-    if (c == '/' && at(i + 1) == '/') {
-      while (i < text.size() && text[i] != '\n') ++i;
-    } else if (c == '/' && at(i + 1) == '*') {
-      for (i += 2; i < text.size() && !(text[i] == '*' && at(i + 1) == '/'); ++i) code += text[i] == '\n' ? '\n' : ' ';
-      i += 2;
-    } else if (c == 'R' && at(i + 1) == '"') {
-      const std::size_t open = text.find('(', i);
-      if (open == std::string::npos) return code;
-      std::string close(1, ')');
-      close.append(text, i + 2, open - i - 2).append(1, '"');
-      const std::size_t end = std::min(text.find(close, open), text.size() - close.size()) + close.size();
-      code.append(text, i, end - i);
-      i = end;
-    } else if (c == '"' || (c == '\'' && !(i > 0 && std::isalnum(static_cast<unsigned char>(text[i - 1]))))) {
-      code += text[i++];
-      while (i < text.size() && text[i] != c && text[i] != '\n') {
-        if (text[i] == '\\' && at(i + 1) != '\n') code += text[i++];
-        if (i < text.size()) code += text[i++];
-      }
-      if (at(i) == c) code += text[i++];
-    } else {
-      code += text[i++];
-    }
-  }
-  return code;
+std::string text(const Violation& violation) {
+  return violation.path + ":" + std::to_string(violation.line) + ": " + violation.what + " [" + violation.rule + "]";
 }
 
 std::vector<Violation> check_architecture(const fs::path& root) { return Checker(root).run(); }
+
+std::vector<Exception> read_exceptions(const fs::path& path) {
+  std::vector<Exception> exceptions;
+  std::ifstream stream(path);
+  std::string line;
+  for (std::size_t number = 1; std::getline(stream, line); ++number) {
+    if (line.empty() || line[0] == '#') continue;
+    const std::size_t bar = line.find(" | ");
+    if (bar == std::string::npos || bar + 3 >= line.size()) {
+      throw std::runtime_error(path.string() + ":" + std::to_string(number) + ": no reason given");
+    }
+    exceptions.push_back({line.substr(0, bar), line.substr(bar + 3), number});
+  }
+  return exceptions;
+}
+
+std::vector<Violation> without_pending(const fs::path& root, std::vector<Violation> violations) {
+  const std::string list = "tests/architecture/pending.txt";
+  std::vector<Violation> stale;
+  for (const Exception& pending : read_exceptions(root / list)) {
+    const std::size_t removed =
+        std::erase_if(violations, [&pending](const Violation& v) { return v.rule + " " + v.path == pending.name; });
+    if (removed == 0) stale.push_back({"list", list, pending.line, "no longer needed: " + pending.name});
+  }
+  violations.insert(violations.end(), stale.begin(), stale.end());
+  return violations;
+}
 
 }  // namespace whitney::architecture

@@ -35,6 +35,8 @@ class Oracle : public perturbation::FootOracle {
   int intrinsic_dim() const override { return manifold_.intrinsic_dim(); }
   double reach() const override { return bending_.reach; }
   double curvature_radius() const override { return std::max(bending_.reach, bending_.curvature_radius); }
+  perturbation::ReachSource reach_source() const override { return bending_.source; }
+  FootPromise promise() const override { return manifold_.promise(); }
   bool foot(std::span<const double> x, std::span<double> point, std::span<double> frame,
             FootErrors& errors) const override {
     if (!manifold_.project(x, point, frame, errors)) return false;

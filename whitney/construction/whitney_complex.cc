@@ -37,7 +37,9 @@ double distance_bound(PerturbedTriangulation& near, std::uint32_t s, std::span<c
   const int d = near.ambient_dim(), n = d - near.codim();
   const double radius = near.oracle().curvature_radius();
   perturbation::FootView foot{};
-  if (!near.foot(s, near.evaluate(s, 0).candidate, foot)) return std::numeric_limits<double>::infinity();
+  const std::uint16_t candidate = near.evaluate(s, 0).candidate;
+  if (candidate == perturbation::Evaluation::kNoFoot || !near.foot(s, candidate, foot))
+    return std::numeric_limits<double>::infinity();
   double tangential = 0, normal = 0;
   for (const std::uint32_t cell : cells) {
     double along = 0, off = 0;

@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <concepts>
 #include <functional>
 #include <memory>
 #include <span>
 #include <utility>
 
 namespace whitney {
-
-/// What a callable must offer to become a Function: read a point of R^d, write f(x) in R^k. It is called concurrently
-/// and must be a pure function of x.
-template <class F>
-concept PointwiseFunction = std::invocable<const F&, std::span<const double>, std::span<double>>;
 
 /// A map f: R^d -> R^k: equations, whose zero set is an isomanifold of dimension n = d - k, or k inequalities f >= 0
 /// (then k may exceed d).
@@ -52,8 +46,9 @@ class Function {
   std::shared_ptr<const Model> model_;
 };
 
-/// The Function of any callable `f(std::span<const double> x, std::span<double> values)`, d >= 1, k >= 1.
-/// Derivatives are taken by differences. Throws InvalidInput on impossible dimensions.
+/// The Function of any callable `f(std::span<const double> x, std::span<double> values)`, d >= 1, k >= 1, which is
+/// called concurrently and must be a pure function of x. Derivatives are taken by differences. Throws InvalidInput on
+/// impossible dimensions.
 Function make_function(int ambient_dim, int codim, std::function<void(std::span<const double>, std::span<double>)> f);
 
 }  // namespace whitney

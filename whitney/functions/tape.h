@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <span>
 #include <vector>
 
@@ -61,6 +60,31 @@ inline double pow(double a, int n) { return repeated_squaring(a, n); }
 /// manifolds are full of. Sums are added from left to right, in the order in which they were built.
 class Tape {
  public:
+  /// register[result] = op(register[a], register[b]). Operands are read before the result is written: the result may
+  /// take an operand's register.
+  struct Instruction {
+    TapeOp op;             ///< never kInput
+    std::uint32_t result;  ///< register
+    /// Registers; a alone for functions of one argument. kSum: numbers of linear and of product terms; kPower: b is the
+    /// exponent, an integer >= 3; kConstant: neither is read.
+    std::uint32_t a, b;
+    friend bool operator==(const Instruction&, const Instruction&) = default;
+  };
+  /// factor (a constant), factor * register[a] (linear; a == b) or factor * register[a] * register[b] (product).
+  /// A kConstant reads one of them, a kSum 1 + (linear) + (product): its constant, then the linear ones, then the
+  /// products; consumed one after the other in the order of the code.
+  struct Term {
+    double factor;
+    std::uint32_t a, b;
+    friend bool operator==(const Term&, const Term&) = default;
+  };
+
+  /// The program, for readers that run it in an arithmetic of their own or analyze it. Registers 0 .. d - 1 hold x at
+  /// the start and may be overwritten once x_i is needed no more; the others are written before they are read.
+  std::span<const Instruction> instructions() const { return code_; }
+  std::span<const Term> terms() const { return terms_; }                        ///< of kSum and kConstant
+  std::span<const std::uint32_t> output_registers() const { return outputs_; }  ///< k, read after the last one
+
   int num_inputs() const { return num_inputs_; }                         ///< d
   int num_outputs() const { return static_cast<int>(outputs_.size()); }  ///< k
   int num_registers() const { return num_registers_; }                   ///< size of the workspace
@@ -86,20 +110,6 @@ class Tape {
  private:
   friend class TapeBuilder;
 
-  struct Instruction {
-    TapeOp op;
-    std::uint32_t result;
-    std::uint32_t a, b;  ///< registers; kSum: numbers of linear and of product terms; kPower: b is the exponent
-    friend bool operator==(const Instruction&, const Instruction&) = default;
-  };
-  /// factor, factor * a or factor * a * b. A kSum reads 1 + (linear) + (products) of them, a kConstant one, in the
-  /// order of the code.
-  struct Term {
-    double factor;
-    std::uint32_t a, b;
-    friend bool operator==(const Term&, const Term&) = default;
-  };
-
   [[noreturn]] void throw_sizes(std::size_t num_coordinates, std::size_t num_values) const;
   /// Runs the code on registers whose first d hold the input.
   template <class T>
@@ -113,54 +123,6 @@ class Tape {
   std::vector<Instruction> code_;
   std::vector<Term> terms_;
   std::vector<std::uint32_t> outputs_;  ///< register of every output
-};
-
-/// Builds a Tape from the leaves up. Equal subexpressions become one node; constants are folded, in doubles.
-/// Every member throws InvalidInput when the result is a constant that is not finite, or a node does not exist.
-class TapeBuilder {
- public:
-  using Node = std::uint32_t;
-  struct Term {
-    double factor;
-    Node node;
-  };
-
-  /// d = num_inputs >= 0.
-  explicit TapeBuilder(int num_inputs);
-
-  Node input(int i);
-  Node constant(double value);
-  /// constant + sum of factor * node, added in the given order; equal nodes are collected at the first of them.
-  Node sum(double constant, const std::vector<Term>& terms);
-  Node product(Node a, Node b);
-  Node quotient(Node a, Node b);
-  Node power(Node a, int n);  ///< a^n, any integer n
-  Node pow(Node a, Node b);
-  Node function(TapeOp op, Node a);  ///< op: kSqrt .. kAbs
-
-  /// Whether the node is a constant, and then its value.
-  bool is_constant(Node a) const { return node(a).op == TapeOp::kConstant; }
-  double value(Node a) const { return node(a).constant; }
-
-  /// The program that computes the nodes.
-  Tape build(std::span<const Node> outputs) const;
-
- private:
-  struct NodeData {
-    TapeOp op = TapeOp::kConstant;
-    double constant = 0;  ///< kConstant, kSum
-    Node a = 0, b = 0;    ///< operands; kInput: its index; kPower: b is the exponent
-    std::vector<Term> terms{};
-  };
-
-  const NodeData& node(Node a) const;
-  Node intern(NodeData data);
-  /// node = factor * rest
-  Term split_factor(Node a) const;
-
-  int num_inputs_;
-  std::vector<NodeData> nodes_;  ///< operands before their users
-  std::map<std::vector<std::uint64_t>, Node> index_;
 };
 
 template <class T>

@@ -31,6 +31,8 @@ class ImplicitModel : public Submanifold::Model {
 
   int ambient_dim() const override { return f_.ambient_dim(); }
   int intrinsic_dim() const override { return f_.ambient_dim() - f_.codim(); }
+  /// Newton's method may end at a point that is not the closest, and the error bounds are of first order.
+  FootPromise promise() const override { return {FootPromise::Place::kLocal, FootPromise::Errors::kModelled}; }
   std::optional<Bending> bending() const override { return std::nullopt; }
   std::vector<double> seed_points() const override { return seed_points_; }
 
@@ -80,11 +82,15 @@ class ImplicitModel : public Submanifold::Model {
 
  private:
   static constexpr double kTiny = 1e-290;
+  static constexpr double kStep = 1e-5;  ///< of differences, in units of length_scale
 
-  /// A point with what f says there.
+  /// A point with what f says there. Equation i and its row of the Jacobian are divided by 2^exponent[i], so that the
+  /// largest entry of every row is about 1: the unit in which an equation is written changes nothing, not even a
+  /// rounding.
   struct Place {
     Vector value;
     Matrix jacobian;
+    Eigen::VectorXi exponent;
     Matrix tangent, normal;         ///< n x d and k x d, orthonormal rows
     double least = 0, largest = 0;  ///< singular values of the Jacobian
     double residual = 0;
@@ -96,8 +102,20 @@ class ImplicitModel : public Submanifold::Model {
     place.jacobian.resize(k, d);
     f_.evaluate(const_span_of(y), span_of(place.value));
     f_.jacobian(const_span_of(y), {place.jacobian.data(), static_cast<std::size_t>(k * d)}, options_.length_scale);
+    if (!place.value.allFinite() || !place.jacobian.allFinite()) return false;
+    place.exponent.resize(k);
+    for (Eigen::Index i = 0; i < k; ++i) {
+      std::frexp(place.jacobian.row(i).cwiseAbs().maxCoeff(), &place.exponent[i]);
+      place.value[i] = std::ldexp(place.value[i], -place.exponent[i]);
+    }
+    divide_rows(place.jacobian, place.exponent);
     place.residual = place.value.norm();
-    return place.value.allFinite() && place.jacobian.allFinite();
+    return std::isfinite(place.residual);
+  }
+
+  static void divide_rows(Matrix& jacobian, const Eigen::VectorXi& exponent) {
+    for (Eigen::Index i = 0; i < jacobian.rows(); ++i)
+      for (Eigen::Index c = 0; c < jacobian.cols(); ++c) jacobian(i, c) = std::ldexp(jacobian(i, c), -exponent[i]);
   }
 
   /// Newton steps of least length onto f = 0; fills `place`. False when they do not arrive at a regular point.
@@ -144,34 +162,33 @@ class ImplicitModel : public Submanifold::Model {
   /// Row a: the derivative of lambda^T Df along tangent a, in coordinates of the tangents.
   Matrix jacobian_changes(const Vector& y, const Place& at, const Vector& lambda) const {
     const Eigen::Index n = intrinsic_dim();
-    const double step = 1e-5 * options_.length_scale;
     Matrix changes(n, n);
-    Matrix plus(at.jacobian.rows(), at.jacobian.cols()), minus = plus;
-    for (Eigen::Index a = 0; a < n; ++a) {
-      differentiate(y, at, a, step, plus, minus);
-      changes.row(a) = lambda.transpose() * (plus - minus) / (2 * step) * at.tangent.transpose();
-    }
+    for (Eigen::Index a = 0; a < n; ++a)
+      changes.row(a) = lambda.transpose() * differentiate(y, at, a) * at.tangent.transpose();
     return changes;
   }
 
-  void differentiate(const Vector& y, const Place& at, Eigen::Index axis, double step, Matrix& plus,
-                     Matrix& minus) const {
-    const auto size = static_cast<std::size_t>(plus.size());
-    const Vector forth = y + step * at.tangent.row(axis).transpose(),
-                 back = y - step * at.tangent.row(axis).transpose();
-    f_.jacobian(const_span_of(forth), {plus.data(), size}, options_.length_scale);
-    f_.jacobian(const_span_of(back), {minus.data(), size}, options_.length_scale);
+  /// The derivative of Df along tangent `axis`, by central differences. A step over which Df is no longer about the
+  /// same is too long for the place, whatever length_scale says.
+  Matrix differentiate(const Vector& y, const Place& at, Eigen::Index axis) const {
+    const auto size = static_cast<std::size_t>(at.jacobian.size());
+    Matrix plus(at.jacobian.rows(), at.jacobian.cols()), minus = plus;
+    double step = kStep * options_.length_scale;
+    for (int shortened = 0;; ++shortened, step /= 16) {
+      const Vector along = step * at.tangent.row(axis).transpose(), forth = y + along, back = y - along;
+      f_.jacobian(const_span_of(forth), {plus.data(), size}, options_.length_scale);
+      f_.jacobian(const_span_of(back), {minus.data(), size}, options_.length_scale);
+      divide_rows(plus, at.exponent);
+      divide_rows(minus, at.exponent);
+      const double change = (plus - minus).norm();
+      if (change <= 0.1 * at.jacobian.norm() || shortened == 20) return (plus - minus) / (2 * step);
+    }
   }
 
   /// About how fast the tangent space turns, per length: |D Df| on the tangent space over the least singular value.
   double turning(const Vector& y, const Place& at) const {
-    const double step = 1e-5 * options_.length_scale;
-    Matrix plus(at.jacobian.rows(), at.jacobian.cols()), minus = plus;
     double squared = 0;
-    for (Eigen::Index a = 0; a < intrinsic_dim(); ++a) {
-      differentiate(y, at, a, step, plus, minus);
-      squared += ((plus - minus) / (2 * step)).squaredNorm();
-    }
+    for (Eigen::Index a = 0; a < intrinsic_dim(); ++a) squared += differentiate(y, at, a).squaredNorm();
     return std::sqrt(squared) / at.least;
   }
 

@@ -10,6 +10,7 @@ namespace whitney {
 
 struct ImplicitManifoldOptions {
   /// About the size of the features of f (a length): steps of differences, where f or its second derivatives need them.
+  /// Steps for second derivatives that are far too long for f are shortened.
   double length_scale = 1;
   int max_iterations = 50;  ///< of each of the two Newton iterations
   /// Rounding errors of f, in units of the rounding of abs(Df) abs(x), assumed and not checked.
@@ -25,6 +26,9 @@ struct ImplicitManifoldOptions {
 ///
 /// Errors: residual of f and roundings over the least singular value of Df (the bound of a Newton step, doubled; not a
 /// verified one), and for the tangent space its change over that distance as well as the rounding of Df.
+///
+/// Units: equations are scaled by powers of two at every point, so that f and diag(2^a, 2^b, ..) f give the same bytes,
+/// as long as nothing of f or Df overflows or becomes subnormal.
 ///
 /// bending(): empty; a zero set says nothing of its reach. Use with_bending, or estimate_bending (which is an
 /// estimate). seed_points: m x d, points on M or near it. Throws InvalidInput when k >= d or sizes do not fit, or a

@@ -21,6 +21,8 @@ constexpr double kEps = std::numeric_limits<double>::epsilon();
 constexpr double kMedial = 1e-12;
 /// Times the size of the matrix: the backward error of Eigen's decompositions in units of rounding, generously.
 constexpr double kRoundings = 64;
+/// The closest point is known (Eckart and Young, Fan and Hoffman), and the decompositions are backward stable.
+constexpr FootPromise kPromise{FootPromise::Place::kGlobal, FootPromise::Errors::kProven};
 
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxSize, kMaxSize>;
 
@@ -105,6 +107,7 @@ class Grassmann : public Submanifold::Model {
     errors = {relative, relative};
     return true;
   }
+  FootPromise promise() const override { return kPromise; }
   std::optional<Bending> bending() const override {
     // The double nearest to sqrt(1/2) is above it.
     const double reach = std::nextafter(std::sqrt(0.5), 0.0);
@@ -172,6 +175,7 @@ class OrthonormalColumns : public Submanifold::Model {
     errors = {relative * std::sqrt(static_cast<double>(p_)), relative};
     return true;
   }
+  FootPromise promise() const override { return kPromise; }
   std::optional<Bending> bending() const override {
     // The double nearest to sqrt(2) is above it.
     const double reach = p_ == q_ ? std::nextafter(std::sqrt(2.0), 0.0) : 1;

@@ -24,6 +24,14 @@ void require(bool condition, const std::string& message) {
   if (!condition) throw InvalidInput(message);
 }
 
+/// A double that is at most a b, for a, b > 0: a bound that is proved stays one.
+double product_below(double a, double b) {
+  const double product = a * b;
+  // The residual of a rounded product is a double, unless it is too small for one.
+  const bool is_below = product > 1e-280 && std::fma(a, b, -product) >= 0;
+  return is_below ? product : std::nextafter(product, 0.0);
+}
+
 double largest(std::span<const double> x) {
   double size = 0;
   for (const double c : x) size = std::max(size, std::abs(c));
@@ -57,11 +65,12 @@ class MovedModel : public Submanifold::Model {
     errors.angle += map_.turn_rounding(d);
     return true;
   }
+  FootPromise promise() const override { return M_.promise(); }
   std::optional<Bending> bending() const override {
     std::optional<Bending> bending = M_.bending();
     if (bending) {
-      bending->reach *= map_.ratio();
-      bending->curvature_radius *= map_.ratio();
+      bending->reach = product_below(bending->reach, map_.ratio());
+      bending->curvature_radius = product_below(bending->curvature_radius, map_.ratio());
     }
     return bending;
   }
@@ -160,6 +169,7 @@ class ProductModel : public Submanifold::Model {
     for (std::size_t i = 0; i < e; ++i) std::copy_n(&G[i * e], e, &frame[(i < n ? i + m : i + d) * (d + e) + d]);
     return true;
   }
+  FootPromise promise() const override { return perturbation::weaker(M_.promise(), N_.promise()); }
   std::optional<Bending> bending() const override {
     const std::optional<Bending> a = M_.bending(), b = N_.bending();
     if (!a || !b) return std::nullopt;
@@ -201,6 +211,7 @@ class EmbeddedModel : public Submanifold::Model {
     for (std::size_t i = d; i < e; ++i) frame[i * e + i] = 1;
     return true;
   }
+  FootPromise promise() const override { return M_.promise(); }
   std::optional<Bending> bending() const override { return M_.bending(); }
   std::vector<double> seed_points() const override {
     const std::size_t d = M_.ambient_dim(), e = ambient_dim_;

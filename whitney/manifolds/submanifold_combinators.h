@@ -25,7 +25,7 @@ Submanifold rotate(Submanifold M, const Eigen::MatrixXd& Q);
 /// M + b. b: d.
 Submanifold translate(Submanifold M, const Eigen::VectorXd& b);
 
-/// s M, s > 0: lengths, reach and curvature radius times s.
+/// s M, s > 0: lengths times s; reach and curvature radius too, rounded down.
 Submanifold scale(Submanifold M, double s);
 
 }  // namespace whitney

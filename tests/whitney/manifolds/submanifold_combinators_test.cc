@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <whitney/manifolds/submanifold_combinators.h>
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include <coxeter/base/error.h>
 #include <whitney/io/read_problem.h>
 #include <whitney/manifolds/closed_form_manifolds.h>
 #include <whitney/manifolds/immersed_surfaces.h>
+#include <whitney/manifolds/matrix_manifolds.h>
 #include "submanifold_checks.h"
 
 namespace whitney {
@@ -60,6 +63,26 @@ TEST(SubmanifoldCombinators, BendingFollows) {
   EXPECT_EQ(product(circle, guessed).bending()->source, Bending::Source::kEstimated);
   EXPECT_EQ(product(circle, guessed).bending()->reach, 0.25);
   EXPECT_EQ(product(circle, guessed).bending()->curvature_radius, 0.5);
+}
+
+TEST(SubmanifoldCombinators, AProvenReachStaysALowerBound) {
+  int rounded_up = 0;
+  for (int i = 1; i < 200; ++i) {
+    const double radius = 1 + i / 7.0, ratio = i / 3.0;
+    const Bending bending = *scale(closed_form::sphere(1, 2, radius), ratio).bending();
+    rounded_up += std::fma(radius, ratio, -radius * ratio) < 0;
+    // Exact: the residual against radius * ratio, rounded once.
+    EXPECT_GE(std::fma(radius, ratio, -bending.reach), 0) << radius << " " << ratio;
+    EXPECT_GE(std::fma(radius, ratio, -bending.curvature_radius), 0) << radius << " " << ratio;
+    EXPECT_GE(bending.reach, radius * ratio * (1 - 3e-16));
+  }
+  EXPECT_GT(rounded_up, 20);  // products rounded to nearest would not do
+  // Constants too: 2 reach^2 <= 1 and reach^2 <= 2.
+  const double half = grassmann(1, 3).bending()->reach, two = special_orthogonal(3).bending()->reach;
+  EXPECT_LE(std::fma(half, half, -0.5), 0);
+  EXPECT_LE(std::fma(two, two, -2.0), 0);
+  const Bending tiny = *scale(scale(closed_form::sphere(1, 2, 1e-140), 1e-140), 0.7e-30).bending();
+  EXPECT_LT(tiny.reach, 0.7e-310);
 }
 
 TEST(SubmanifoldCombinators, SeedsLieOnTheManifold) {

@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Bugs that a test must catch. Each breaks one promise of the library.
+
+A bug is a list of edits (file, text, replacement), the executable of a test and its filter. A text must be found exactly
+once in its file, so that a bug that no longer applies says so: then find the place that keeps the promise today, and put
+the bug there. The file may be a glob pattern, for code that moves: the text must be found once in all files together.
+"""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Bug:
+    name: str
+    promise: str
+    edits: tuple  # of (file or pattern, text, replacement)
+    test: str  # coxeter, perturbation or whitney: the executable
+    filter: str
+
+
+BUGS = (
+    Bug(
+        "skip_set_flag",
+        "a cofacet that was crossed is known on both its sides",
+        (("whitney/tracing/*.cc", "  simplices_.set_flag(id, step.flag);\n", ""),),
+        "whitney",
+        "Boundary.OctantOfTheSphere*:Boundary.CurvesWithEnds",
+    ),
+    Bug(
+        "less_for_less_equal_in_the_ratio_test",
+        "a tie of two ratios is broken by the powers of eps, never by the order of the rows",
+        (("whitney/tracing/exact_pivot.cc", "    if (order < 0) {\n", "    if (order <= 0) {\n"),),
+        "whitney",
+        "ExactPivot.*",
+    ),
+    Bug(
+        "target_zero_instead_of_eps",
+        "the complex is that of f = (eps, .., eps^k)",
+        (
+            (
+                "whitney/tracing/exact_pivot.cc",
+                "    while (system.inverse(r, l) == 0) ++l;  // a row of an inverse is not zero\n",
+                "    if (system.inverse(r, l) == 0) continue;\n",
+            ),
+        ),
+        "whitney",
+        "ExactPivot.*",
+    ),
+    Bug(
+        "height_without_eta",
+        "(A+) counts the errors of the foot",
+        (
+            (
+                "perturbation/certificate_proof.cc",
+                "(R_c + sqrt(R_c * R_c - squared)) + Interval(eta[i]));",
+                "(R_c + sqrt(R_c * R_c - squared)));",
+            ),
+        ),
+        "perturbation",
+        "Errors.*",
+    ),
+    Bug(
+        "condition_C_dropped",
+        "no second sheet of the manifold is in a certified simplex",
+        (
+            ("perturbation/certificate.cc", "    if (!(height < far * far)) return margins;\n", "    (void)far;\n"),
+            ("perturbation/certificate_proof.cc", "    if (!(height[i].sup() < far.inf())) return proof;\n", "    (void)far;\n"),
+        ),
+        "perturbation",
+        "Certificate.EachConditionCanFail",
+    ),
+    Bug(
+        "rounding_guard_off",
+        "the proof is in interval arithmetic, and hands the rounding mode back",
+        (("perturbation/certificate_proof.cc", "  const Rounding rounding;\n  Interval departure(0);\n", "  Interval departure(0);\n"),),
+        "perturbation",
+        "RoundingGuard.*",
+    ),
+    Bug(
+        "kernel_gamma_over_100",
+        "the residual is bounded with what its own rounding may hide",
+        (
+            (
+                "whitney/tracing/barycentric_kernel.cc",
+                "    const double gamma = 4 * (n + 3) * kUnitRoundoff;\n    for (int l",
+                "    const double gamma = 0.04 * (n + 3) * kUnitRoundoff;\n    for (int l",
+            ),
+            (
+                "whitney/tracing/barycentric_kernel.cc",
+                "    const double gamma = 4 * (n + 3) * kUnitRoundoff;\n    const Lanes rounding",
+                "    const double gamma = 0.04 * (n + 3) * kUnitRoundoff;\n    const Lanes rounding",
+            ),
+        ),
+        "whitney",
+        "KernelBounds.*",
+    ),
+    Bug(
+        "is_complete_always_true",
+        "a cell of a stopped trace is whole or not there",
+        (("whitney/cells/*.cc", "  if (cell_dim == 1) return cell_facets.size() == 2;\n", "  if (cell_dim >= 1) return true;\n"),),
+        "whitney",
+        "CellComplex.AStoppedTrace*",
+    ),
+    Bug(
+        "strata_joined_across_sets",
+        "a stratum holds the cells with one set of inequalities",
+        (("whitney/cells/strata.cc", "    if (s == t) partition.join(", "    partition.join("),),
+        "whitney",
+        "Boundary.OctantOfTheSphere*",
+    ),
+    Bug(
+        "second_sign_of_a_ridge",
+        "the two facets around a ridge induce opposite signs on it",
+        (
+            (
+                "whitney/topology/chain_complex.cc",
+                "-sign[p] * signs[j - 1][e] * signs[j - 1][back];",
+                "-sign[p] * signs[j - 1][e] * signs[j - 1][e];",
+            ),
+        ),
+        "whitney",
+        "ChainComplex.*",
+    ),
+    Bug(
+        "commit_without_rename",
+        "a file that was committed is there under its name",
+        (("whitney/io/atomic_file.cc", "  if (::rename(temporary_.c_str(), final_.c_str()) != 0) fail(errno);\n", ""),),
+        "whitney",
+        "AtomicFileTest.AppearsOnCommitOnly",
+    ),
+    Bug(
+        "region_ignored_in_certify",
+        "a walk that keeps to a region is certified away from its boundary",
+        (("perturbation/*.cc", "trace.region && !trace.region(near, other)", "false"),),
+        "whitney",
+        "Triangulate.APartNearADomainIsCertifiedByItself",
+    ),
+)
