@@ -2,25 +2,30 @@
 #include <iostream>
 
 #include <whitney/cli/commands.h>
-#include <whitney/cli/report.h>
+#include <whitney/cli/describe.h>
+#include <whitney/cli/session.h>
 #include <whitney/io/atomic_file.h>
+#include <whitney/io/output_files.h>
 #include <whitney/io/read_mesh.h>
 #include <whitney/io/write_report.h>
+#include <whitney/problem/check_mesh.h>
 
 namespace whitney::cli {
 
 int run_check(const CheckArguments& arguments) {
+  check_output_files(arguments.mesh, {arguments.stats});
   const SimplicialMesh mesh = read_mesh(arguments.mesh);
-  Statistics statistics;
-  statistics.ambient_dim = mesh.ambient_dim;
-  statistics.intrinsic_dim = mesh.dim;
-  statistics.topology = topology_of(mesh);
-  if (!arguments.stats.empty()) write_file(arguments.stats, to_json(statistics));
+  const InterruptGuard guard;
+  ProgressLine line(arguments.quiet);
+  const Report report =
+      check_mesh(mesh, topology_level(arguments.topology), run_control(arguments.limits, guard, line));
+  if (!arguments.stats.empty()) write_file(arguments.stats, to_json(report));
   if (!arguments.quiet)
     std::cout << arguments.mesh << ": " << mesh.num_points() << " points in R^" << mesh.ambient_dim << ", "
               << mesh.num_simplices() << " simplices\n"
-              << describe(statistics.topology, mesh.dim);
-  return statistics.topology.is_manifold() ? kDone : kNotAManifold;
+              << describe_topology(report) << describe_stop(report);
+  if (report.topology.manifold == ManifoldKind::kSingular) return kNotProved;
+  return report.stopped() ? kStopped : kDone;
 }
 
 }  // namespace whitney::cli

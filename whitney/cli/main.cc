@@ -11,21 +11,31 @@
 extern "C" const char* __lsan_default_suppressions() { return "leak:libcln"; }
 #endif
 
-int main(int argc, char** argv) {
-  using namespace whitney::cli;
-  CLI::App app{
-      "Triangulates smooth submanifolds of R^d of any dimension and codimension.\n"
-      "\n"
-      "Exit status: 0 done; 1 bad input, named with file, key and reason; 2 stopped by a limit, what was\n"
-      "found is written; 3 the mesh checked is not a manifold, or the triangulation is not certified (it is\n"
-      "written, with what stands in the way). No file is ever left half written.",
-      "whitney"};
-  app.set_version_flag("--version", std::string("whitney ") + WHITNEY_VERSION);
-  app.require_subcommand(1);
-  app.fallthrough();
-  app.get_formatter()->column_width(34);
+namespace {
 
-  TraceArguments trace;
+using namespace whitney::cli;
+
+void add_topology_option(CLI::App& command, std::string& topology) {
+  command
+      .add_option("--topology", topology,
+                  "of the mesh: none, euler (counts, components, orientability), full (also links and homology)")
+      ->check(CLI::IsMember({"none", "euler", "full"}))
+      ->capture_default_str();
+}
+
+void add_limits(CLI::App& command, LimitArguments& limits) {
+  command
+      .add_option("--time-limit", limits.time_limit,
+                  "stop the search after so many seconds, write what was found, and leave out what comes after")
+      ->check(CLI::NonNegativeNumber);
+  command
+      .add_option("--memory-limit", limits.memory_limit,
+                  "bytes, or 500M, 2G: stop the search, and leave out parts, that would need more (default: what the "
+                  "machine has free)")
+      ->transform(CLI::AsSizeValue(false));
+}
+
+CLI::App* add_trace(CLI::App& app, TraceArguments& trace) {
   CLI::App* trace_command = app.add_subcommand(
       "trace", "Trace the zero set of equations: a piecewise-linear manifold, its topology and a mesh of it");
   trace_command
@@ -51,19 +61,21 @@ int main(int argc, char** argv) {
                    "what is written: pulled (simplices, no new vertices), barycentric, or cells (the polygons, n <= 2)")
       ->check(CLI::IsMember({"pulled", "barycentric", "cells"}))
       ->capture_default_str();
-  trace_command->add_option("--max-simplices", trace.max_simplices, "stop after so many simplices")
+  add_topology_option(*trace_command, trace.topology);
+  trace_command->add_option("--max-simplices", trace.limits.max_simplices, "stop after so many simplices")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  trace_command->add_option("--time-limit", trace.time_limit, "stop tracing after so many seconds")
-      ->check(CLI::NonNegativeNumber);
+  add_limits(*trace_command, trace.limits);
   trace_command
       ->add_option("--project", trace.projection,
                    "how R^d, d > 3, becomes R^3: pca, or three variables i,j,k (numbers from 1, or names)")
       ->capture_default_str();
   trace_command->add_option("--color-by", trace.color_by, "variable that colours the vertices (.ply, .pov)");
   trace_command->add_flag("-q,--quiet", trace.quiet, "print nothing but errors");
+  return trace_command;
+}
 
-  TriangulateArguments triangulate;
+CLI::App* add_triangulate(CLI::App& app, TriangulateArguments& triangulate) {
   CLI::App* triangulate_command = app.add_subcommand(
       "triangulate",
       "Whitney's construction: an embedded complex with a proof that it is homeomorphic to the manifold");
@@ -106,12 +118,11 @@ int main(int argc, char** argv) {
                    "what is written: barycentric (K), pulled (no new vertices), or cells (the polygons, n <= 2)")
       ->check(CLI::IsMember({"pulled", "barycentric", "cells"}))
       ->capture_default_str();
-  triangulate_command->add_option("--max-simplices", triangulate.max_simplices, "stop after so many d-simplices")
+  add_topology_option(*triangulate_command, triangulate.topology);
+  triangulate_command->add_option("--max-simplices", triangulate.limits.max_simplices, "stop after so many d-simplices")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  triangulate_command
-      ->add_option("--time-limit", triangulate.time_limit, "stop displacing vertices after so many seconds")
-      ->check(CLI::NonNegativeNumber);
+  add_limits(*triangulate_command, triangulate.limits);
   triangulate_command
       ->add_option("--project", triangulate.projection,
                    "how R^d, d > 3, becomes R^3: pca, or three variables i,j,k (numbers from 1, or names)")
@@ -119,21 +130,54 @@ int main(int argc, char** argv) {
   triangulate_command->add_option("--color-by", triangulate.color_by,
                                   "variable that colours the vertices (.ply, .pov)");
   triangulate_command->add_flag("-q,--quiet", triangulate.quiet, "print nothing but errors");
+  return triangulate_command;
+}
 
-  CheckArguments check;
+CLI::App* add_check(CLI::App& app, CheckArguments& check) {
   CLI::App* check_command =
       app.add_subcommand("check", "Topology of a mesh file: is it a manifold, Euler characteristic, homology");
   check_command->add_option("MESH", check.mesh, "mesh file: .off .noff .ply .obj .stl .mesh .vtu")->required();
   check_command->add_option("--stats", check.stats, "write the results to this JSON file");
+  add_topology_option(*check_command, check.topology);
+  add_limits(*check_command, check.limits);
   check_command->add_flag("-q,--quiet", check.quiet, "print nothing but errors");
+  return check_command;
+}
 
-  ParametersArguments parameters;
+CLI::App* add_parameters(CLI::App& app, ParametersArguments& parameters) {
   CLI::App* parameters_command = app.add_subcommand(
       "parameters", "The constants of Boissonnat, Kachanovich and Wintraecken, as printed and corrected, in log10");
   parameters_command->add_option("--ambient", parameters.ambient_dim, "dimension d of the ambient space")->required();
   parameters_command->add_option("--intrinsic", parameters.intrinsic_dim, "dimension n of the manifold, 1 <= n < d")
       ->required();
   parameters_command->add_option("--stats", parameters.stats, "write the constants to this JSON file");
+  return parameters_command;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{
+      "Triangulates smooth submanifolds of R^d of any dimension and codimension.\n"
+      "\n"
+      "Exit status: 0 done (and certified, where that was asked for); 1 bad input, named with file, key and\n"
+      "reason, or a file that could not be written; 2 stopped by a limit or a signal, what was found is written\n"
+      "and what was left out is named; 3 done, but not certified, violated or singular, or the mesh checked is\n"
+      "not a manifold: mesh and witness are written. No file is ever left half written.",
+      "whitney"};
+  app.set_version_flag("--version", std::string("whitney ") + WHITNEY_VERSION);
+  app.require_subcommand(1);
+  app.fallthrough();
+  app.get_formatter()->column_width(34);
+
+  TraceArguments trace;
+  TriangulateArguments triangulate;
+  CheckArguments check;
+  ParametersArguments parameters;
+  const CLI::App* const trace_command = add_trace(app, trace);
+  const CLI::App* const triangulate_command = add_triangulate(app, triangulate);
+  add_check(app, check);
+  const CLI::App* const parameters_command = add_parameters(app, parameters);
 
   try {
     app.parse(argc, argv);
@@ -146,7 +190,9 @@ int main(int argc, char** argv) {
     if (parameters_command->parsed()) return run_parameters(parameters);
     return run_check(check);
   } catch (const std::bad_alloc&) {
-    std::cerr << "whitney: out of memory; a larger --edge-length or --max-simplices helps\n";
+    std::cerr << "whitney: stopped early (memory_limit), out of memory: nothing more is written; a larger edge length "
+                 "or a smaller --max-simplices helps\n";
+    return kStopped;
   } catch (const std::exception& error) {
     std::cerr << "whitney: " << error.what() << "\n";
   }

@@ -1,67 +1,91 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <whitney/cli/session.h>
 
-#include <csignal>
-#include <filesystem>
 #include <unistd.h>
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <iostream>
 
-#include <coxeter/base/error.h>
+#include <coxeter/base/memory_use.h>
 
 namespace whitney::cli {
 namespace {
 
 volatile std::sig_atomic_t interrupt_seen = 0;
 
+void on_signal(void (*handler)(int), int flags) {
+  struct sigaction action {};
+  action.sa_handler = handler;
+  action.sa_flags = flags;
+  for (const int signal : {SIGINT, SIGTERM}) sigaction(signal, &action, nullptr);
+}
+
 }  // namespace
 
 InterruptGuard::InterruptGuard() {
   interrupt_seen = 0;
-  std::signal(SIGINT, [](int) { interrupt_seen = 1; });
+  on_signal([](int) { interrupt_seen = 1; }, static_cast<int>(SA_RESTART | SA_RESETHAND));
 }
 
-InterruptGuard::~InterruptGuard() { std::signal(SIGINT, SIG_DFL); }
+InterruptGuard::~InterruptGuard() { on_signal(SIG_DFL, 0); }
 
 bool InterruptGuard::interrupted() const { return interrupt_seen != 0; }
 
-void check_outputs(const std::vector<std::string>& outputs, const std::string& stats, int intrinsic_dim,
-                   bool polygons) {
-  std::vector<std::string> files = outputs;
-  if (!stats.empty()) files.push_back(stats);
-  for (const std::string& file : files) {
-    std::filesystem::path folder = std::filesystem::path(file).parent_path();
-    if (folder.empty()) folder = ".";
-    if (!std::filesystem::is_directory(folder)) throw FileError(file + ": there is no folder " + folder.string());
-    if (access(folder.c_str(), W_OK) != 0) throw FileError(file + ": no permission to write into " + folder.string());
-  }
-  for (const std::string& file : outputs) check_mesh_format(file, intrinsic_dim, polygons);
+ProgressLine::ProgressLine(bool quiet) : live_(!quiet && isatty(STDERR_FILENO) != 0) {}
+
+void ProgressLine::show(const Progress& progress) {
+  if (!live_ || (progress.seconds <= shown_ + 0.5 && progress.seconds >= shown_)) return;
+  shown_ = progress.seconds;
+  std::fprintf(stderr, "\r%s: %zu simplices, %.0f s ", progress.phase, progress.simplices, progress.seconds);
 }
 
-std::string write_outputs(const std::vector<std::string>& outputs, const SimplicialMesh& mesh,
-                          const PolygonMesh* polygons, const MeshWriteOptions& options) {
-  std::string failed;
-  for (const std::string& file : outputs) {
-    try {
-      if (polygons != nullptr)
-        write_mesh(file, *polygons, options);
-      else
-        write_mesh(file, mesh, options);
-    } catch (const std::exception& error) {
-      failed += (failed.empty() ? "" : "\n") + std::string(error.what());
-    }
-  }
-  return failed;
+void ProgressLine::end() {
+  if (live_ && shown_ > 0) std::fprintf(stderr, "\n");
+  shown_ = 0;
 }
 
-std::optional<Box> to_box(const std::vector<std::array<double, 2>>& sides) {
-  if (sides.empty()) return std::nullopt;
-  Box box;
-  for (const auto& [lower, upper] : sides) {
-    box.lower.push_back(lower);
-    box.upper.push_back(upper);
-  }
-  return box;
+RunControl run_control(const LimitArguments& limits, const InterruptGuard& guard, ProgressLine& line) {
+  RunControl run;
+  run.max_simplices = limits.max_simplices;
+  run.time_limit = limits.time_limit;
+  const std::uint64_t free = available_bytes(), all = RunControl{}.memory_limit;
+  run.memory_limit = limits.memory_limit             ? *limits.memory_limit
+                     : free < all - resident_bytes() ? free + resident_bytes()
+                                                     : all;
+  run.progress = [&guard, &line](const Progress& progress) {
+    line.show(progress);
+    return !guard.interrupted();
+  };
+  return run;
 }
 
-std::optional<Box> box_of(const Problem& problem) { return to_box(problem.box); }
+MeshKind mesh_kind(const std::string& word) {
+  return word == "pulled" ? MeshKind::kPulled : word == "cells" ? MeshKind::kCells : MeshKind::kBarycentric;
+}
+
+TopologyLevel topology_level(const std::string& word) {
+  return word == "none" ? TopologyLevel::kNone : word == "euler" ? TopologyLevel::kEuler : TopologyLevel::kFull;
+}
+
+std::vector<std::string> without_failed(const std::vector<std::string>& files, const std::vector<std::string>& failed) {
+  std::vector<std::string> good;
+  for (const std::string& file : files)
+    if (!file.empty() && std::none_of(failed.begin(), failed.end(), [&](const std::string& line) {
+          return line.find(file + ":") != std::string::npos;
+        }))
+      good.push_back(file);
+  return good;
+}
+
+void finish_files(const std::vector<std::string>& written, const std::vector<std::string>& failed, bool quiet) {
+  if (!quiet)
+    for (const std::string& file : written) std::cout << "written: " << file << "\n";
+  std::cout.flush();
+  if (failed.empty()) return;
+  std::string text;
+  for (const std::string& line : failed) text += (text.empty() ? "" : "\n") + line;
+  throw FileError(text);
+}
 
 }  // namespace whitney::cli

@@ -1,55 +1,61 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
-#include <chrono>
-#include <optional>
+#include <cstddef>
 #include <string>
 #include <vector>
 
-#include <whitney/io/read_problem.h>
-#include <whitney/io/write_mesh.h>
-#include <whitney/topology/mesh.h>
-#include <whitney/tracing/trace.h>
+#include <coxeter/base/error.h>
+#include <coxeter/base/run_control.h>
+#include <whitney/cli/commands.h>
+#include <whitney/problem/report.h>
 
 // What the subcommands have in common.
 
 namespace whitney::cli {
 
-/// Seconds since the last call.
-class Stopwatch {
- public:
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    const double seconds = std::chrono::duration<double>(now - last_).count();
-    last_ = now;
-    return seconds;
-  }
-
- private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
-
-/// While one is alive, SIGINT does not end the program but is remembered.
+/// While one is alive, SIGINT and SIGTERM do not end the program but are remembered; a second one ends it.
 class InterruptGuard {
  public:
   InterruptGuard();
   ~InterruptGuard();
   InterruptGuard(const InterruptGuard&) = delete;
+  InterruptGuard& operator=(const InterruptGuard&) = delete;
   bool interrupted() const;
 };
 
-/// Refuses before the work begins what can be refused then. Throws FileError when the folder of a file is not there or
-/// may not be written into, InvalidInput when a mesh format does not fit the dimension.
-void check_outputs(const std::vector<std::string>& outputs, const std::string& stats, int intrinsic_dim, bool polygons);
+/// Prints how far a run has come, in one line that it writes over again.
+class ProgressLine {
+ public:
+  explicit ProgressLine(bool quiet);
+  void show(const Progress& progress);
+  void end();
 
-/// Writes every file, even if another fails; returns what went wrong, a line each, empty if nothing did.
-std::string write_outputs(const std::vector<std::string>& outputs, const SimplicialMesh& mesh,
-                          const PolygonMesh* polygons, const MeshWriteOptions& options);
+ private:
+  bool live_;
+  double shown_ = 0;
+};
 
-/// The box of a problem, or nothing when it has none.
-std::optional<Box> box_of(const Problem& problem);
-/// The same of a list of sides.
-std::optional<Box> to_box(const std::vector<std::array<double, 2>>& sides);
+/// The limits of the arguments; stops when the guard was interrupted. Both must outlive the run.
+RunControl run_control(const LimitArguments& limits, const InterruptGuard& guard, ProgressLine& line);
+
+MeshKind mesh_kind(const std::string& word);
+TopologyLevel topology_level(const std::string& word);
+
+/// Prints "written: FILE" for each that was, then throws FileError with what failed, if anything did.
+void finish_files(const std::vector<std::string>& written, const std::vector<std::string>& failed, bool quiet);
+
+/// `files` without empty names and without those that a line of `failed` is about.
+std::vector<std::string> without_failed(const std::vector<std::string>& files, const std::vector<std::string>& failed);
+
+/// Calls `work`; its InvalidInput gets the file in front.
+template <class Work>
+auto with_file(const std::string& file, Work work) {
+  try {
+    return work();
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(file + ": " + error.what());
+  }
+}
 
 }  // namespace whitney::cli

@@ -1,120 +1,107 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <iostream>
+#include <sstream>
 
 #include <coxeter/base/error.h>
-#include <whitney/cells/subdivide.h>
-#include <whitney/cli/boundary_report.h>
 #include <whitney/cli/commands.h>
-#include <whitney/cli/report.h>
+#include <whitney/cli/describe.h>
 #include <whitney/cli/session.h>
-#include <whitney/cli/trace_piece.h>
 #include <whitney/io/atomic_file.h>
+#include <whitney/io/output_files.h>
 #include <whitney/io/read_problem.h>
-#include <whitney/io/write_mesh.h>
 #include <whitney/io/write_report.h>
-#include <whitney/topology/topology.h>
-#include <whitney/tracing/cut_regularity.h>
-#include <whitney/tracing/orient_by_function.h>
+#include <whitney/problem/trace_problem.h>
 
 namespace whitney::cli {
-int run_trace(const TraceArguments& arguments) {
-  Stopwatch watch;
-  Statistics statistics;
-  const Problem problem = read_problem(arguments.problem);
-  if (problem.atlas) return run_trace_charts(problem, arguments);
-  if (!problem.function)
-    throw InvalidInput(arguments.problem +
-                       ": this manifold is given by its closest points, not as a zero set: use `whitney triangulate`");
-  const Function& function = *problem.function;
-  const int d = problem.ambient_dim(), k = problem.codim(), n = d - k;
-  if (n < 1)
-    throw InvalidInput(arguments.problem + ": equations: " + std::to_string(k) + " equations in " + std::to_string(d) +
-                       " variables leave no manifold of dimension 1 or more");
-  check_outputs(arguments.outputs, arguments.stats, n, arguments.mesh == "cells");
-  check_outputs({}, arguments.strata, n, false);
-  if (!arguments.strata.empty()) check_strata_format(arguments.strata, n);
-  const std::optional<Box> box = box_of(problem);
-  const double edge_length = edge_length_of(arguments, problem, box);
-  const coxeter::Triangulation triangulation = make_triangulation(problem.triangulation, d, edge_length);
-  const bool talk = !arguments.quiet;
-  const TracedPiece piece = trace_piece({arguments.problem, function, problem.inequalities, box, problem.seed_points},
-                                        triangulation, arguments, 0, 0, watch, statistics);
-  const TraceResult& traced = piece.traced;
-  if (piece.empty()) throw InvalidInput(arguments.problem + ": " + piece.where_to_look());
-  const CellComplex& complex = piece.complex;
-  const Strata& strata = piece.strata;
-  const Strata* const labels = strata.has_boundary() || !arguments.strata.empty() ? &strata : nullptr;
-  SimplicialMesh mesh =
-      arguments.mesh == "barycentric" ? barycentric_subdivision(complex, labels) : pulled_subdivision(complex, labels);
-  mesh = orient_by_function(std::move(mesh), function).mesh;
-  const bool polygons = arguments.mesh == "cells";
-  PolygonMesh cells;
-  if (polygons) cells = polygon_mesh(complex, labels);
-  statistics.seconds["mesh"] = watch.lap();
+namespace {
 
-  if (labels != nullptr)
-    statistics.boundary =
-        boundary_statistics(strata, mesh, check_cuts(function, traced, triangulation.edge_length()), problem);
-  const CutRegularity interior = check_interior(function, traced, triangulation.edge_length());
-  statistics.interior_singular_value = interior.smallest_singular_value;
-  for (const SingularCut& point : interior.singular) statistics.interior_singular_points.push_back(point.point);
-  statistics.topology = topology_of(mesh);
-  if (polygons) {
-    statistics.topology.f_vector.clear();
-    for (int j = 0; j <= n; ++j) statistics.topology.f_vector.push_back(complex.num_cells(j));
+/// Refuses before the work begins what can be refused then.
+void check_outputs(const TraceArguments& arguments, const Problem& problem) {
+  std::vector<std::string> files = arguments.outputs;
+  files.push_back(arguments.stats);
+  check_output_files(arguments.problem, files);
+  const int n = problem.ambient_dim() - problem.codim();
+  for (const std::string& file : arguments.outputs) check_mesh_format(file, n, arguments.mesh == "cells");
+  if (arguments.strata.empty()) return;
+  if (problem.atlas) throw InvalidInput("--strata does not go with charts: their seams are no strata");
+  check_strata_pattern(arguments.problem, files, arguments.strata, n);
+}
+
+std::string describe(const Problem& problem, const TracedProblem& result) {
+  const Report& report = result.report;
+  const int d = problem.ambient_dim(), k = problem.codim();
+  const std::string equations = std::to_string(k) + (k == 1 ? " equation" : " equations");
+  std::ostringstream text;
+  const double seconds = report.seconds.contains("trace") ? report.seconds.at("trace") : 0;
+  if (problem.atlas)
+    text << problem.atlas->charts.size() << " charts in R^" << d << ", " << equations << ", edge length "
+         << *report.edge_length << ": " << report.simplices_met << " simplices of dimension " << k
+         << " meet the zero sets, " << report.oracle_evaluations << " evaluations, " << seconds << " s\n"
+         << describe_seams(report);
+  else
+    text << "R^" << d << ", " << equations << ", edge length " << *report.edge_length << ": " << report.simplices_met
+         << " simplices of dimension " << k << " meet the zero set, f evaluated at " << report.oracle_evaluations
+         << " lattice vertices, " << seconds << " s\n";
+  text << describe_topology(report) << describe_seeds(report) << describe_singular_points(report);
+  if (report.boundary) text << describe_boundary(*report.boundary);
+  text << describe_singular_charts(report) << describe_stop(report);
+  return text.str();
+}
+
+/// What to say when there is no mesh.
+int report_nothing(const TraceArguments& arguments, const TracedProblem& result) {
+  if (!result.report.stopped() && result.outcome == TracedProblem::Outcome::kNothingFound)
+    throw InvalidInput(arguments.problem + ": " + result.explanation);
+  if (!arguments.stats.empty()) write_file(arguments.stats, to_json(result.report));
+  if (result.outcome == TracedProblem::Outcome::kSeamsDisagree) {
+    std::cerr << "whitney: " << arguments.problem << ": " << result.explanation << "\n";
+    return kNotProved;
   }
-  statistics.seconds["topology"] = watch.lap();
+  std::cerr << "whitney: " << arguments.problem << ": stopped early (" << to_string(result.report.stop_reason)
+            << "), nothing is written" << (result.explanation.empty() ? "" : ": " + result.explanation) << "\n"
+            << describe_stop(result.report);
+  return kStopped;
+}
 
+}  // namespace
+
+int run_trace(const TraceArguments& arguments) {
+  const Problem problem = read_problem(arguments.problem);
+  check_outputs(arguments, problem);
+  const InterruptGuard guard;
+  ProgressLine line(arguments.quiet);
   MeshWriteOptions write_options;
   write_options.projection = arguments.projection;
-  write_options.variables = problem.variables;
   write_options.color_by = arguments.color_by;
-  std::string failed = write_outputs(arguments.outputs, mesh, polygons ? &cells : nullptr, write_options);
-  std::vector<std::string> written = arguments.outputs;
-  if (!arguments.strata.empty()) {
-    const auto files =
-        write_strata(arguments.strata, mesh, labels != nullptr ? strata.strata.size() : 0, write_options, failed);
-    written.insert(written.end(), files.begin(), files.end());
-  }
-  statistics.seconds["write"] = watch.lap();
+  std::vector<std::string> written, failed;
 
-  statistics.ambient_dim = d;
-  statistics.intrinsic_dim = n;
-  statistics.edge_length = edge_length;
-  statistics.stop_reason = to_string(traced.stop_reason);
-  if (!arguments.stats.empty()) write_file(arguments.stats, to_json(statistics));
+  TraceProblemOptions options;
+  options.edge_length = arguments.edge_length;
+  options.mesh = mesh_kind(arguments.mesh);
+  options.topology = topology_level(arguments.topology);
+  options.always_label_strata = !arguments.strata.empty();
+  options.run = run_control(arguments.limits, guard, line);
+  options.mesh_ready = [&](const TracedProblem& result) {
+    write_options.variables = result.variables;
+    failed = write_meshes(arguments.outputs, result.mesh, result.cells ? &*result.cells : nullptr, write_options);
+    written = without_failed(arguments.outputs, failed);
+    if (arguments.strata.empty()) return;
+    const WrittenStrata strata = write_strata(arguments.strata, result.mesh, result.num_strata, write_options);
+    written.insert(written.end(), strata.files.begin(), strata.files.end());
+    failed.insert(failed.end(), strata.failed.begin(), strata.failed.end());
+  };
+  const TracedProblem result = with_file(arguments.problem, [&] { return trace_problem(problem, options); });
+  line.end();
+  if (result.mesh.num_points() == 0) return report_nothing(arguments, result);
 
-  if (talk) {
-    std::cout << "R^" << d << ", " << k << (k == 1 ? " equation" : " equations") << ", edge length " << edge_length
-              << ": " << traced.num_simplices() << " simplices of dimension " << k
-              << " meet the zero set, f evaluated at " << traced.evaluations << " lattice vertices, " << traced.seconds
-              << " s\n"
-              << describe(statistics.topology, n);
-    if (piece.searched)
-      std::cout << "seeds: searched for (" << piece.found.num_starts << " starts), " << statistics.num_seeds_used
-                << " used; that every component was found is likely, not proved\n";
-    for (std::size_t i = 0; !piece.searched && i < traced.seeds.size(); ++i)
-      if (traced.seeds[i].outcome == SeedReport::Outcome::kDropped)
-        std::cout << "seed point " << i + 1 << " dropped: " << traced.seeds[i].reason << "\n";
-    std::cout << too_small_text(statistics);
-    for (const auto& point : statistics.interior_singular_points)
-      std::cout
-          << "the zero set is SINGULAR at " << point_text(point)
-          << ": it crosses or touches itself or has a tip there, and the mesh is one resolution of it among several\n";
-    if (statistics.boundary) std::cout << describe(*statistics.boundary);
-    if (traced.stop_reason == StopReason::kBox)
-      std::cout << "the manifold reaches the box and was cut there"
-                << (traced.whole ? "" : ", at whole simplices where f has no value outside it") << "\n";
-    else if (traced.stop_reason != StopReason::kNone)
-      std::cout << "stopped early (" << statistics.stop_reason << "): the mesh is part of the manifold\n";
-    for (const std::string& file : written) std::cout << "written: " << file << "\n";
-    if (!arguments.stats.empty()) std::cout << "written: " << arguments.stats << "\n";
+  if (!arguments.stats.empty()) {
+    write_file(arguments.stats, to_json(result.report));
+    written.push_back(arguments.stats);
   }
-  if (!failed.empty()) throw FileError(failed);
-  if (!statistics.interior_singular_points.empty()) return kSingular;
-  if (statistics.boundary && !statistics.boundary->singular_points.empty()) return kSingular;
-  if (traced.stop_reason == StopReason::kNone || traced.stop_reason == StopReason::kBox) return kDone;
-  return kStopped;
+  if (!arguments.quiet) std::cout << describe(problem, result);
+  finish_files(written, failed, arguments.quiet);
+  if (result.report.stopped()) return kStopped;
+  return result.report.singular() ? kNotProved : kDone;
 }
 
 }  // namespace whitney::cli

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <whitney/functions/find_seeds.h>
 
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -47,7 +48,7 @@ class Search {
   }
 
   FoundSeeds run() {
-    for (std::size_t i = 0; i < options_.num_starts; ++i) {
+    for (std::size_t i = 0; i < options_.num_starts && !stopped(); ++i) {
       const VectorXd start = lower_ + low_discrepancy(i, d_).cwiseProduct(upper_ - lower_);
       ++found_.num_starts;
       const std::optional<VectorXd> point = project(start);
@@ -61,6 +62,14 @@ class Search {
   }
 
  private:
+  bool stopped() {
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+    if (seconds > options_.run.time_limit)
+      found_.stop_reason = StopReason::kTimeLimit;
+    else if (options_.run.progress && !options_.run.progress({"seeds", 0, found_.evaluations, seconds}))
+      found_.stop_reason = StopReason::kCancelled;
+    return found_.stop_reason != StopReason::kNone;
+  }
   bool value(const VectorXd& x, VectorXd& f) {
     f.resize(k_);
     f_.evaluate({x.data(), std::size_t(d_)}, {f.data(), std::size_t(k_)});
@@ -177,6 +186,7 @@ class Search {
   VectorXd lower_, upper_, direction_;
   double diagonal_ = 0;
   FoundSeeds found_;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace
@@ -192,6 +202,7 @@ FoundSeeds find_seeds(const Function& f, const Domain& domain, const FindSeedsOp
   if (!domain.box()) throw InvalidInput("find_seeds: the domain has no box");
   const Box& box = *domain.box();
   const int d = f.ambient_dim(), n = d - f.codim();
+  const auto begin = std::chrono::steady_clock::now();
   FoundSeeds found = Search(f, box, options, &domain, {}).run();
   FindSeedsOptions fewer = options;
   fewer.num_starts = (options.num_starts + 7) / 8;
@@ -208,12 +219,15 @@ FoundSeeds find_seeds(const Function& f, const Domain& domain, const FindSeedsOp
       }
     sets = std::move(larger);
     for (const std::vector<int>& set : sets) {
-      if (++searched > options.max_strata) break;
+      if (++searched > options.max_strata || found.stop_reason != StopReason::kNone) break;
+      const double used = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+      fewer.run.time_limit = options.run.time_limit - used;
       const FoundSeeds more = Search(domain.with_equations(f, set), box, fewer, &domain, set).run();
       found.points.insert(found.points.end(), more.points.begin(), more.points.end());
       found.num_starts += more.num_starts;
       found.num_converged += more.num_converged;
       found.evaluations += more.evaluations;
+      found.stop_reason = more.stop_reason;
     }
   }
   return found;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include <coxeter/base/run_control.h>
 #include <whitney/functions/domain.h>
 #include <whitney/functions/function.h>
 
@@ -14,14 +15,16 @@ struct FindSeedsOptions {
   std::size_t num_critical = 100;  ///< how many of them also look for a critical point of a linear function
   int max_iterations = 60;         ///< Newton steps from each
   std::size_t max_strata = 64;  ///< with inequalities: how many strata are searched, each from 1/8 of the start points
+  RunControl run{};             ///< time_limit and progress (phase "seeds"), asked before every start point
 };
 
 struct FoundSeeds {
   std::vector<double> points;  ///< num x d, points of f = 0 in the box, no two closer than 1e-9 of the box's diagonal
   std::size_t num_starts = 0;  ///< Newton iterations begun
-  std::size_t num_converged = 0;  ///< of which reached f = 0 inside the box at a regular point
-  std::size_t num_singular = 0;   ///< of which came to points where the rows of Df are linearly dependent
-  std::size_t evaluations = 0;    ///< of f; Jacobians are not counted
+  std::size_t num_converged = 0;               ///< of which reached f = 0 inside the box at a regular point
+  std::size_t num_singular = 0;                ///< of which came to points where the rows of Df are linearly dependent
+  std::size_t evaluations = 0;                 ///< of f; Jacobians are not counted
+  StopReason stop_reason = StopReason::kNone;  ///< what of FindSeedsOptions::run ended the search early
 };
 
 /// Looks for points on f = 0 in a box, with the aim of one on every component.

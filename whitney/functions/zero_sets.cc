@@ -102,14 +102,14 @@ const Entry kManifolds[] = {
     {"two_spheres", [](const auto& p) { return Arguments("two_spheres", p, {}), two_spheres(); }},
 };
 
-/// Manifolds that are known but have no regular equations: what they wait for.
-const std::pair<const char*, const char*> kNotYet[] = {
-    {"klein_bottle", "it is not orientable, so no regular zero set: it needs `whitney triangulate`"},
-    {"projective_plane", "it is not orientable, so no regular zero set: it needs `whitney triangulate`"},
-    {"projective_plane_projectors", "it is not orientable, so no regular zero set: it needs `whitney triangulate`"},
-    {"so3_matrices", "it needs `whitney triangulate`"},
-    {"klein_quartic", "it needs charts"},
-    {"alvarez_deroin", "it needs charts"},
+/// Manifolds that are known but are not the zero set of regular equations: what to do instead.
+const std::pair<const char*, const char*> kNoZeroSets[] = {
+    {"klein_bottle", "it is not orientable, so no regular zero set: use `whitney triangulate`"},
+    {"projective_plane", "it is not orientable, so no regular zero set: use `whitney triangulate`"},
+    {"projective_plane_projectors", "it is not orientable, so no regular zero set: use `whitney triangulate`"},
+    {"so3_matrices", "it is known by its closest points only: use `whitney triangulate`"},
+    {"klein_quartic", "it is made of charts: give its equation under the key \"projective\""},
+    {"alvarez_deroin", "it is made of charts: give its equation under the key \"projective\""},
 };
 
 }  // namespace
@@ -242,9 +242,7 @@ NamedManifold named_manifold(std::string_view name, const std::map<std::string, 
   for (const Entry& entry : kManifolds) {
     if (name == entry.name) return entry.make(parameters);
   }
-  for (const auto& [known, reason] : kNotYet) {
-    require(name != known, std::string(known) + ": " + reason + ", which this version does not have yet");
-  }
+  for (const auto& [known, reason] : kNoZeroSets) require(name != known, std::string(known) + ": " + reason);
   std::string list;
   for (const std::string& known : manifold_names()) list += (list.empty() ? "" : ", ") + known;
   throw InvalidInput("unknown manifold '" + std::string(name) + "'; known are " + list);

@@ -1,84 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
-#include <Eigen/Core>
-
-#include <coxeter/triangulation.h>
-#include <whitney/atlas/chart_atlas.h>
-#include <whitney/functions/function.h>
-#include <whitney/manifolds/submanifold.h>
+#include <whitney/problem/problem.h>
 
 namespace whitney {
-
-/// The ambient triangulation as a problem file asks for it. A missing key takes the default given here.
-struct TriangulationSpec {
-  enum class Type { kCoxeter, kFreudenthal };
-  enum class Rotation { kNone, kRandom };
-  enum class Offset { kZero, kRandom, kGiven };
-
-  Type type = Type::kCoxeter;
-  std::optional<double> edge_length{};  ///< longest edge of a d-simplex, > 0
-  Rotation rotation = Rotation::kNone;
-  Offset offset = Offset::kRandom;
-  std::vector<double> given_offset{};  ///< d, with Offset::kGiven
-  std::uint64_t rng_seed = 1;
-};
-
-/// What PROBLEM.json says (its format: docs of the program).
-struct Problem {
-  enum class Source { kEquations, kNamed, kParametrization, kCharts };
-
-  Source source = Source::kEquations;
-  std::vector<std::string> variables{};         ///< d names; where the file gives none: x1 .. xd
-  std::optional<Function> function{};           ///< f: R^d -> R^k; kEquations, and kNamed where f is known
-  std::optional<Function> inequalities{};       ///< g: R^d -> R^m, the domain is g >= 0
-  std::vector<std::string> inequality_texts{};  ///< m, as in the file
-  /// The closest-point oracle: kParametrization, and kNamed where it is known. With the file's reach, if it gives one.
-  std::optional<Submanifold> submanifold{};
-  /// Charts to be traced one by one and glued: kCharts, from "charts" or "projective". Then it alone has equations,
-  /// boxes and seed points; those of the problem are empty.
-  std::optional<ChartAtlas> atlas{};
-  std::vector<std::array<double, 2>> box{};        ///< d x (lower, upper), or empty: none was given, and none is known
-  std::vector<std::vector<double>> seed_points{};  ///< m x d; empty: to be searched for
-  std::optional<double> reach{};                   ///< what the caller can prove, a length > 0
-  TriangulationSpec triangulation{};
-
-  int ambient_dim() const {
-    return atlas ? atlas->ambient_dim() : function ? function->ambient_dim() : submanifold->ambient_dim();
-  }
-  int codim() const { return atlas ? atlas->codim() : function ? function->codim() : submanifold->codim(); }
-};
 
 /// Reads a problem file: JSON with // comments. A number may be written as a constant expression, "2*pi".
 /// A named manifold with equations brings its box, which "box" overrides.
 /// Throws FileError when the file cannot be read, InvalidInput (file, key, reason) on everything else: text that is no
-/// JSON, unknown, repeated or missing keys, wrong sizes, lower >= upper, expressions that are not understood, and
-/// sources that this version does not have yet.
+/// JSON, unknown, repeated or missing keys, wrong sizes, lower >= upper, and expressions that are not understood.
 Problem read_problem(const std::string& path);
 
 /// The same from text; `name` stands for the file in messages.
 Problem parse_problem(std::string_view text, const std::string& name);
-
-/// The submanifold of a problem, with the file's reach if it gives one: problem.submanifold, or else f = 0 as an
-/// implicit manifold (whose foot is a local one), from the file's seed points or, without them, from points found in
-/// the box. Throws InvalidInput when there are neither, or none is found, where the equations leave no dimension, and
-/// for charts, which have no closest points.
-Submanifold submanifold_of(const Problem& problem);
-
-/// The triangulation of R^d: type and edge_length (> 0, takes the place of spec.edge_length), rotated, then shifted by
-/// b: zero, given, or uniform over a cell of the lattice. The random choices depend on rng_seed and d only, on every
-/// platform (up to the rounding of log, sin and cos). Throws InvalidInput on an impossible dimension, edge length or
-/// size of the given offset.
-coxeter::Triangulation make_triangulation(const TriangulationSpec& spec, int ambient_dim, double edge_length);
-
-/// A rotation matrix, uniform on SO(d), from a fixed generator: the same for a seed on every platform, up to rounding.
-Eigen::MatrixXd random_rotation(int ambient_dim, std::uint64_t rng_seed);
 
 }  // namespace whitney

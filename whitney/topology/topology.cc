@@ -39,6 +39,10 @@ std::size_t count_components(std::span<const Incidence> facets, std::vector<std:
   return components;
 }
 
+bool begins(const TopologyOptions& options, const char* part, const Topology& counts) {
+  return !options.begin_part || options.begin_part(part, counts.f_vector);
+}
+
 Topology topology_of(std::span<const Incidence> facets, const IncidenceSigns& signs, const TopologyOptions& options) {
   Topology result;
   std::size_t num_cells = 0;
@@ -70,7 +74,7 @@ Topology topology_of(std::span<const Incidence> facets, const IncidenceSigns& si
     result.orientable =
         result.branching_faces == 0 && orient_cells(facets[n], signs[n], facets[n - 1].size()).all_orientable();
   }
-  if (options.homology && num_cells <= options.max_homology_cells) {
+  if (options.homology && num_cells <= options.max_homology_cells && begins(options, "homology", result)) {
     result.homology_z = homology(facets, signs).groups;
     result.betti_z2 = betti_z2(*result.homology_z);
   }
@@ -83,7 +87,7 @@ Topology topology_of(const SimplicialMesh& mesh, const TopologyOptions& options)
   const FaceLattice lattice = face_lattice(mesh);
   Topology result = topology_of(lattice.facets, simplicial_signs(lattice.facets), options);
   result.unused_points = mesh.num_points() - lattice.num_faces(0);
-  if (options.links) {
+  if (options.links && begins(options, "vertex links", result)) {
     LinkReport report = check_vertex_links(mesh);
     result.manifold = report.first.has_value()    ? ManifoldKind::kSingular
                       : result.boundary_faces > 0 ? ManifoldKind::kWithBoundary

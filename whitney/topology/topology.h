@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <span>
@@ -20,6 +21,8 @@ struct TopologyOptions {
   bool links = true;     ///< decide whether a mesh is a manifold (not for complexes given by facets)
   bool homology = true;  ///< homology_z and betti_z2
   std::size_t max_homology_cells = std::numeric_limits<std::size_t>::max();  ///< skip homology of larger complexes
+  /// Unless empty: asked before "homology" and "vertex links" begin, with the f-vector; false leaves that part out.
+  std::function<bool(const char* part, const std::vector<std::size_t>& f_vector)> begin_part{};
 };
 
 /// Decided by the links of the vertices, see check_vertex_links.
