@@ -36,6 +36,18 @@ VectorXd low_discrepancy(std::size_t index, int dim) {
 /// The exponent of the power of two that brings a positive number into [1, 2).
 int exponent_of(double size) { return size > 0 && std::isfinite(size) ? std::ilogb(size) : 0; }
 
+/// 2^exponent as two factors of equal sign of the exponent: neither leaves the range of double, and where a number and
+/// its multiple are normal, so is what is between them, and the multiple is exact. Faster than ldexp.
+class PowerOfTwo {
+ public:
+  explicit PowerOfTwo(int exponent)
+      : half_(std::ldexp(1.0, exponent / 2)), rest_(std::ldexp(1.0, exponent - exponent / 2)) {}
+  double operator*(double x) const { return x * half_ * rest_; }
+
+ private:
+  double half_, rest_;
+};
+
 /// One search, from all start points. Lengths are in units of a power of two near the diagonal of the box, and the
 /// equations are scaled by powers of two, so nothing overflows when it is squared. Powers of two in the units change no
 /// result, to the last bit.
@@ -85,10 +97,10 @@ class Search {
   }
 
   VectorXd in_units(const VectorXd& x) const {
-    return x.unaryExpr([this](double c) { return std::ldexp(c, -unit_); });
+    return x.unaryExpr([power = PowerOfTwo(-unit_)](double c) { return power * c; });
   }
   VectorXd in_lengths(const VectorXd& x) const {
-    return x.unaryExpr([this](double c) { return std::ldexp(c, unit_); });
+    return x.unaryExpr([power = PowerOfTwo(unit_)](double c) { return power * c; });
   }
 
   bool inside(const VectorXd& x) const {
@@ -109,8 +121,10 @@ class Search {
     if (exponent.empty())
       for (int r = 0; r < k_; ++r) exponent.push_back(exponent_of(rows.row(r).lpNorm<Eigen::Infinity>()) + unit_);
     J.resize(k_, d_);
-    for (int r = 0; r < k_; ++r)
-      for (int c = 0; c < d_; ++c) J(r, c) = std::ldexp(rows(r, c), unit_ - exponent[r]);
+    for (int r = 0; r < k_; ++r) {
+      const PowerOfTwo power(unit_ - exponent[r]);
+      for (int c = 0; c < d_; ++c) J(r, c) = power * rows(r, c);
+    }
     return J.allFinite();
   }
 
