@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include <coxeter/base/error.h>
+#include <coxeter/base/text.h>
 #include <perturbation/displacement.h>
 
 namespace whitney::perturbation {
@@ -39,13 +40,6 @@ std::vector<double> centre_of(const PerturbedTriangulation& near, std::uint32_t 
   for (int q = 0; q <= d; ++q)
     for (int c = 0; c < d; ++c) centre[c] += near.position(near.corners(s)[q])[c] / (d + 1);
   return centre;
-}
-
-std::string place(std::span<const double> x) {
-  std::ostringstream text;
-  text.precision(6);
-  for (std::size_t c = 0; c < x.size(); ++c) text << (c == 0 ? "(" : ", ") << x[c];
-  return text.str() + ")";
 }
 
 }  // namespace
@@ -165,7 +159,7 @@ CertificateReport certify(PerturbedTriangulation& near, const HitWalk& trace, do
   } else if (report.not_certified > 0) {
     std::ostringstream text;
     text << report.not_certified << " of " << report.simplices << " simplices of dimension " << d
-         << " are not certified; the worst is at " << place(report.witness->barycentre) << ": "
+         << " are not certified; the worst is at " << whitney::text(report.witness->barycentre) << ": "
          << report.witness->reason << ", margin " << report.witness->margin;
     report.reason = text.str();
     std::sort(failing.begin(), failing.end());
@@ -185,7 +179,7 @@ CertificateReport certify(PerturbedTriangulation& near, const HitWalk& trace, do
   if (report.violation) {
     report.verdict = Verdict::kViolated;
     report.reason = describe(*report.violation) + ", near " +
-                    place(std::span<const double>(report.violation->points).first(static_cast<std::size_t>(d)));
+                    whitney::text(std::span<const double>(report.violation->points).first(static_cast<std::size_t>(d)));
   }
   return report;
 }

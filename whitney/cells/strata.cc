@@ -2,34 +2,34 @@
 #include <whitney/cells/strata.h>
 
 #include <algorithm>
-#include <numeric>
+#include <cstdint>
+#include <limits>
+
+#include <coxeter/base/disjoint_sets.h>
+#include <coxeter/base/error.h>
 
 namespace whitney {
 namespace {
 
-/// Union and find over all cells of a complex.
+/// A partition of all cells of a complex. They are numbered from the last one down: the representative of a class, its
+/// least number, is its last cell, one of the highest dimension.
 class CellPartition {
  public:
   explicit CellPartition(const CellComplex& complex) : first_{0} {
     for (int j = 0; j <= complex.intrinsic_dim; ++j) first_.push_back(first_.back() + complex.num_cells(j));
-    parent_.resize(first_.back());
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+    if (first_.back() > std::numeric_limits<std::uint32_t>::max()) throw InvalidInput("more than 2^32 cells");
+    classes_.reset(first_.back());
   }
 
   std::size_t cell(int j, std::size_t i) const { return first_[j] + i; }
-  std::size_t find(std::size_t cell) {
-    while (parent_[cell] != cell) cell = parent_[cell] = parent_[parent_[cell]];
-    return cell;
-  }
-  /// The representative of a class is its last cell: one of the highest dimension.
-  void join(std::size_t a, std::size_t b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::min(a, b)] = std::max(a, b);
-  }
+  std::size_t find(std::size_t cell) { return first_.back() - 1 - classes_.find(number(cell)); }
+  void join(std::size_t a, std::size_t b) { classes_.unite(number(a), number(b)); }
 
  private:
-  std::vector<std::size_t> first_, parent_;
+  std::uint32_t number(std::size_t cell) const { return static_cast<std::uint32_t>(first_.back() - 1 - cell); }
+
+  std::vector<std::size_t> first_;
+  DisjointSets classes_;
 };
 
 /// Calls visit(j, cell, its set, facet, the set of the facet) for every cell and facet.

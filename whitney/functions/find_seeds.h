@@ -15,7 +15,7 @@ struct FindSeedsOptions {
   std::size_t num_critical = 100;  ///< how many of them also look for a critical point of a linear function
   int max_iterations = 60;         ///< Newton steps from each
   std::size_t max_strata = 64;  ///< with inequalities: how many strata are searched, each from 1/8 of the start points
-  RunControl run{};             ///< time_limit and progress (phase "seeds"), asked before every start point
+  RunControl run{};  ///< limits of time and memory, and progress (phase "seeds"), asked before every Newton step
 };
 
 struct FoundSeeds {
@@ -24,7 +24,7 @@ struct FoundSeeds {
   std::size_t num_converged = 0;               ///< of which reached f = 0 inside the box at a regular point
   std::size_t num_singular = 0;                ///< of which came to points where the rows of Df are linearly dependent
   std::size_t evaluations = 0;                 ///< of f; Jacobians are not counted
-  StopReason stop_reason = StopReason::kNone;  ///< what of FindSeedsOptions::run ended the search early
+  StopReason stop_reason = StopReason::kNone;  ///< the limit of FindSeedsOptions::run that ended the search early
 };
 
 /// Looks for points on f = 0 in a box, with the aim of one on every component.
@@ -34,6 +34,9 @@ struct FoundSeeds {
 /// however small it is. This is a search: it proves nothing. A component may be missed when it is small against the box
 /// or when few starts lead to it; more starts or a smaller box help. Deterministic. Dense linear algebra: meant for
 /// moderate d (6 or so for completeness, tens for finding something).
+///
+/// Units do not matter: neither that of the lengths nor those of the components of f, which may differ by hundreds of
+/// orders of magnitude, as long as the values of f and of its derivatives are in the range of double.
 ///
 /// Throws InvalidInput when the box does not fit f. Points where f is not finite are passed over.
 FoundSeeds find_seeds(const Function& f, const Box& box, const FindSeedsOptions& options = {});

@@ -3,9 +3,9 @@
 
 #include <cmath>
 #include <cstddef>
-#include <sstream>
 
 #include <coxeter/base/error.h>
+#include <coxeter/base/text.h>
 
 namespace whitney {
 namespace {
@@ -68,10 +68,7 @@ bool Submanifold::project(std::span<const double> x, std::span<double> point, st
                        std::to_string(d * d));
   if (!model_->project(x, point, frame, errors)) return false;
   if (!all_finite(point) || !all_finite(frame) || !(errors.point >= 0) || !(errors.angle >= 0)) {
-    std::ostringstream message;
-    message << "the closest-point oracle returned values that are not finite at x = (";
-    for (std::size_t c = 0; c < d; ++c) message << (c > 0 ? ", " : "") << x[c];
-    throw OracleError(message.str() + ")");
+    throw OracleError("the closest-point oracle returned values that are not finite at x = " + text(x));
   }
   return true;
 }

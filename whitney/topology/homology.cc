@@ -6,6 +6,7 @@
 #include <queue>
 
 #include <coxeter/base/error.h>
+#include <coxeter/base/run_watch.h>
 #include <whitney/topology/smith_form.h>
 
 namespace whitney {
@@ -24,7 +25,7 @@ struct Matching {
   std::vector<std::vector<std::uint32_t>> critical;
 };
 
-Matching match_by_coreductions(std::span<const Incidence> facets) {
+Matching match_by_coreductions(std::span<const Incidence> facets, RunWatch& watch) {
   using Role = Matching::Role;
   const std::size_t num_dims = facets.size();
   Matching matching;
@@ -50,6 +51,7 @@ Matching match_by_coreductions(std::span<const Incidence> facets) {
   std::queue<Cell> ready;
   std::uint32_t now = 0;
   const auto remove = [&](std::uint32_t j, std::uint32_t i, Role role) {
+    watch.check();
     matching.role[j][i] = role;
     matching.time[j][i] = now++;
     if (j + 1 == num_dims) return;
@@ -96,7 +98,7 @@ void add(Integer& sum, const Integer& term, bool negative) {
 /// left; cells matched down contribute nothing.
 template <class Number>
 SparseIntegerMatrix morse_boundary(std::span<const Incidence> facets, const IncidenceSigns& signs,
-                                   const Matching& matching, std::size_t j) {
+                                   const Matching& matching, std::size_t j, RunWatch& watch) {
   using Role = Matching::Role;
   const std::vector<Role>& role = matching.role[j - 1];
   std::vector<std::uint32_t> row(facets[j - 1].size(), kNone);
@@ -125,6 +127,7 @@ SparseIntegerMatrix morse_boundary(std::span<const Incidence> facets, const Inci
   for (std::uint32_t c : matching.critical[j]) {
     add_boundary(c, 1, false, kNone);
     while (!latest.empty()) {
+      watch.check();
       const std::uint32_t a = latest.top().second;
       latest.pop();
       touched[a] = 0;
@@ -147,16 +150,8 @@ SparseIntegerMatrix morse_boundary(std::span<const Incidence> facets, const Inci
   return matrix;
 }
 
-}  // namespace
-
-std::string to_string(const HomologyGroup& group) {
-  std::string text;
-  if (group.rank > 0) text = group.rank == 1 ? "Z" : "Z^" + std::to_string(group.rank);
-  for (const std::string& t : group.torsion) text += (text.empty() ? "Z/" : " + Z/") + t;
-  return text.empty() ? "0" : text;
-}
-
-Homology homology(std::span<const Incidence> facets, const IncidenceSigns& signs) {
+/// Throws InvalidInput as homology() does.
+void require_complex(std::span<const Incidence> facets, const IncidenceSigns& signs) {
   require_well_formed(facets);
   if (signs.size() != facets.size()) throw InvalidInput("signs: one list per dimension is needed");
   for (std::size_t j = 0; j < facets.size(); ++j) {
@@ -172,16 +167,29 @@ Homology homology(std::span<const Incidence> facets, const IncidenceSigns& signs
   std::size_t num_cells = 0;
   for (const Incidence& lists : facets) num_cells += lists.size();
   if (num_cells > kNone) throw InvalidInput("facets: more than 2^32 cells");
+}
 
-  const Matching matching = match_by_coreductions(facets);
+/// Bytes that match_by_coreductions takes.
+std::uint64_t matching_bytes(std::span<const Incidence> facets) {
+  constexpr std::uint64_t kPerCell = 17, kPerIncidence = 4;  // role, time, mate, offset of cofacets, facets left
+  std::uint64_t bytes = 0;
+  for (const Incidence& lists : facets) bytes += kPerCell * lists.size() + kPerIncidence * lists.index.size();
+  return bytes;
+}
+
+/// Throws RunWatch::Stopped.
+Homology compute_homology(std::span<const Incidence> facets, const IncidenceSigns& signs, RunWatch& watch) {
+  require_complex(facets, signs);
+  if (!watch.fits(matching_bytes(facets)) || watch.stopped_now()) throw RunWatch::Stopped{};
+  const Matching matching = match_by_coreductions(facets, watch);
   // The critical vertices are one per component, so the Morse boundary of dimension 1 is zero.
   std::vector<SmithForm> forms(facets.size() + 1);
   for (std::size_t j = 2; j < facets.size(); ++j) {
     if (matching.critical[j].empty() || matching.critical[j - 1].empty()) continue;
     try {
-      forms[j] = smith_form(morse_boundary<std::int64_t>(facets, signs, matching, j));
+      forms[j] = smith_form(morse_boundary<std::int64_t>(facets, signs, matching, j, watch), &watch);
     } catch (const Overflow&) {
-      forms[j] = smith_form(morse_boundary<Integer>(facets, signs, matching, j));
+      forms[j] = smith_form(morse_boundary<Integer>(facets, signs, matching, j, watch), &watch);
     }
   }
   Homology result;
@@ -190,6 +198,26 @@ Homology homology(std::span<const Incidence> facets, const IncidenceSigns& signs
     HomologyGroup& group = result.groups.emplace_back();
     group.rank = matching.critical[j].size() - forms[j].rank - forms[j + 1].rank;
     for (const Integer& t : forms[j + 1].factors) group.torsion.push_back(t.str());
+  }
+  return result;
+}
+
+}  // namespace
+
+std::string to_string(const HomologyGroup& group) {
+  std::string text;
+  if (group.rank > 0) text = group.rank == 1 ? "Z" : "Z^" + std::to_string(group.rank);
+  for (const std::string& t : group.torsion) text += (text.empty() ? "Z/" : " + Z/") + t;
+  return text.empty() ? "0" : text;
+}
+
+Homology homology(std::span<const Incidence> facets, const IncidenceSigns& signs, const RunControl& run) {
+  RunWatch watch(run, "homology");
+  Homology result;
+  try {
+    result = compute_homology(facets, signs, watch);
+  } catch (const RunWatch::Stopped&) {
+    result.stop_reason = watch.reason();
   }
   return result;
 }
@@ -205,40 +233,6 @@ std::vector<std::size_t> betti_z2(std::span<const HomologyGroup> groups) {
     betti.push_back(group.rank + even + even_below);
     even_below = even;
   }
-  return betti;
-}
-
-std::vector<std::size_t> betti_z2_by_elimination(std::span<const Incidence> facets) {
-  require_well_formed(facets);
-  std::vector<std::size_t> rank(facets.size() + 1, 0);
-  // The facet of a pivot is a cycle already known to bound: its own column needs no reduction (Chen, Kerber 2011).
-  std::vector<char> cleared;
-  for (std::size_t j = facets.size(); j-- > 1;) {
-    std::vector<std::uint32_t> column_of_pivot(facets[j - 1].size(), kNone);
-    std::vector<std::vector<std::uint32_t>> columns(facets[j].size());
-    std::vector<char> facet_cleared(facets[j - 1].size(), 0);
-    std::vector<std::uint32_t> sum;
-    for (std::size_t i = 0; i < facets[j].size(); ++i) {
-      if (!cleared.empty() && cleared[i]) continue;
-      std::vector<std::uint32_t>& column = columns[i];
-      column.assign(facets[j][i].begin(), facets[j][i].end());
-      std::sort(column.begin(), column.end());
-      while (!column.empty() && column_of_pivot[column.back()] != kNone) {
-        const std::vector<std::uint32_t>& pivot = columns[column_of_pivot[column.back()]];
-        sum.clear();
-        std::set_symmetric_difference(column.begin(), column.end(), pivot.begin(), pivot.end(),
-                                      std::back_inserter(sum));
-        std::swap(column, sum);
-      }
-      if (column.empty()) continue;
-      column_of_pivot[column.back()] = i;
-      facet_cleared[column.back()] = 1;
-      ++rank[j];
-    }
-    cleared = std::move(facet_cleared);
-  }
-  std::vector<std::size_t> betti;
-  for (std::size_t j = 0; j < facets.size(); ++j) betti.push_back(facets[j].size() - rank[j] - rank[j + 1]);
   return betti;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <coxeter/base/run_control.h>
 #include <whitney/topology/chain_complex.h>
 #include <whitney/topology/incidence.h>
 
@@ -23,10 +24,11 @@ struct HomologyGroup {
 std::string to_string(const HomologyGroup& group);
 
 struct Homology {
-  std::vector<HomologyGroup> groups;  ///< H_0 .. H_n with integer coefficients
+  std::vector<HomologyGroup> groups;  ///< H_0 .. H_n with integer coefficients; empty when the run was stopped
   /// The number of cells of each dimension that a discrete Morse function left: at least the ranks, and 2 (or 1) in all
   /// prove that a combinatorial manifold is a PL sphere (or ball) (Forman, Morse theory for cell complexes, 1998).
   std::vector<std::size_t> critical_cells;
+  StopReason stop_reason = StopReason::kNone;  ///< the limit that stopped the run; then the rest is empty
 };
 
 /// Integral homology of a regular CW complex (see chain_complex.h), by coreductions (Mrozek, Batko, Coreduction
@@ -34,8 +36,9 @@ struct Homology {
 /// a Morse complex of few cells with the same homology, and the Smith normal form of its boundary. Exact for any size
 /// of coefficients. Linear in the number of cells where the Morse complex is small. The empty complex (no dimension)
 /// has no groups. `signs` must be those of the complex; boundary_squared_is_zero tells. Throws InvalidInput when facets
-/// are not well formed, an edge has not two vertices, or the signs do not fit the facets.
-Homology homology(std::span<const Incidence> facets, const IncidenceSigns& signs);
+/// are not well formed, an edge has not two vertices, or the signs do not fit the facets. Of `run`, the limits of time
+/// and memory and `progress` (phase "homology") are asked now and then; what the reduction takes is asked for first.
+Homology homology(std::span<const Incidence> facets, const IncidenceSigns& signs, const RunControl& run = {});
 
 /// The same with the signs of regular_cell_signs, and its checks.
 Homology homology(std::span<const Incidence> facets);
@@ -43,9 +46,5 @@ Homology homology(std::span<const Incidence> facets);
 /// Betti numbers over Z/2 by the universal coefficient theorem: rank H_j + even torsion of H_j + even torsion of
 /// H_(j-1).
 std::vector<std::size_t> betti_z2(std::span<const HomologyGroup> groups);
-
-/// Betti numbers over Z/2 by elimination on the full boundary matrices: slow, but shares nothing with homology().
-/// Throws InvalidInput when facets are not well formed.
-std::vector<std::size_t> betti_z2_by_elimination(std::span<const Incidence> facets);
 
 }  // namespace whitney

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 #include <string>
 #include <utility>
 
+#include <coxeter/base/disjoint_sets.h>
 #include <coxeter/base/error.h>
 #include <whitney/topology/face_lattice.h>
 
@@ -16,42 +16,6 @@ namespace {
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
 bool all(const std::vector<bool>& flags) { return std::find(flags.begin(), flags.end(), false) == flags.end(); }
-
-/// Union-find in which every element knows its sign relative to the representative of its class.
-class SignedUnionFind {
- public:
-  explicit SignedUnionFind(std::size_t count) : parent_(count), sign_(count, 1) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-
-  std::pair<std::uint32_t, std::int8_t> find(std::uint32_t x) {
-    std::int8_t sign = 1;
-    while (parent_[x] != x) {
-      const std::uint32_t up = parent_[x];
-      sign_[x] *= sign_[up];  // the representative has sign +1
-      parent_[x] = parent_[up];
-      sign *= sign_[x];
-      x = parent_[x];
-    }
-    return {x, sign};
-  }
-
-  /// Demands sign(a) = relation * sign(b). Returns whether that is consistent with the demands before it.
-  bool unite(std::uint32_t a, std::uint32_t b, std::int8_t relation) {
-    const auto [root_a, sign_a] = find(a);
-    const auto [root_b, sign_b] = find(b);
-    if (root_a == root_b) return sign_a == relation * sign_b;
-    const std::uint32_t low = std::min(root_a, root_b);
-    const std::uint32_t high = std::max(root_a, root_b);
-    parent_[high] = low;
-    sign_[high] = relation * sign_a * sign_b;
-    return true;
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-  std::vector<std::int8_t> sign_;
-};
 
 }  // namespace
 
@@ -80,27 +44,29 @@ CellOrientation orient_cells(const Incidence& facets, std::span<const std::int8_
     }
   }
 
-  SignedUnionFind classes(facets.size());
-  std::vector<std::uint32_t> contradictions;
+  // Every cell twice, as it is (2 i) and turned over (2 i + 1): what two neighbours demand of each other unites two
+  // pairs of them. A class then is a component with the signs relative to its first cell, and a component that demands
+  // both signs of a cell is one class, not two. The representative is the least of a class.
+  if (facets.size() > kNone / 2) throw InvalidInput("facets: more than 2^31 cells");
+  DisjointSets classes(2 * facets.size());
   for (const auto& [first, second, count] : sides) {
-    if (count == 2 && !classes.unite(first.cell, second.cell, -first.sign * second.sign)) {
-      contradictions.push_back(first.cell);
-    }
+    if (count != 2) continue;
+    const std::uint32_t turn = first.sign == second.sign ? 1 : 0;
+    classes.unite(2 * first.cell, 2 * second.cell + turn);
+    classes.unite(2 * first.cell + 1, 2 * second.cell + 1 - turn);
   }
   CellOrientation result;
   result.component.resize(facets.size());
   result.sign.resize(facets.size());
-  std::uint32_t num_components = 0;
-  for (std::size_t i = 0; i < facets.size(); ++i) {
-    // The representative is the least cell of its class, so it has been met.
-    const auto [root, sign] = classes.find(i);
-    result.component[i] = root == i ? num_components++ : result.component[root];
-    result.sign[i] = sign;
-  }
-  result.orientable.assign(num_components, true);
-  for (std::uint32_t cell : contradictions) result.orientable[result.component[cell]] = false;
-  for (std::size_t i = 0; i < facets.size(); ++i) {
-    if (!result.orientable[result.component[i]]) result.sign[i] = 1;
+  for (std::uint32_t i = 0; i < facets.size(); ++i) {
+    const std::uint32_t root = classes.find(2 * i), first_cell = root / 2;
+    if (first_cell == i) {
+      result.component[i] = static_cast<std::uint32_t>(result.orientable.size());
+      result.orientable.push_back(root != classes.find(2 * i + 1));
+    } else {
+      result.component[i] = result.component[first_cell];
+    }
+    result.sign[i] = root % 2 == 0 ? 1 : -1;
   }
   return result;
 }

@@ -21,8 +21,9 @@ bool is_unit(const Integer& a) { return a == 1 || a == -1; }
 /// rest of the pivot columns, so the form is ones for the pivots beside the form of the other columns.
 class UnitElimination {
  public:
-  explicit UnitElimination(SparseIntegerMatrix& matrix)
+  UnitElimination(SparseIntegerMatrix& matrix, RunWatch* watch)
       : matrix_(matrix),
+        watch_(watch),
         pivot_of_row_(matrix.num_rows, kNone),
         row_size_(matrix.num_rows, 0),
         sum_(matrix.num_rows),
@@ -71,6 +72,7 @@ class UnitElimination {
       sum_[entry.row] = std::move(entry.value);
     }
     while (!pivots.empty()) {
+      if (watch_ != nullptr) watch_->check();
       const std::uint32_t p = pivots.top();
       pivots.pop();
       const Integer factor = sum_[pivot_rows_[p]] * pivot_units_[p];
@@ -104,6 +106,7 @@ class UnitElimination {
   }
 
   SparseIntegerMatrix& matrix_;
+  RunWatch* watch_;
   std::vector<std::uint32_t> pivot_of_row_;
   std::vector<std::uint32_t> row_size_;
   std::vector<std::uint32_t> pivot_rows_;
@@ -114,7 +117,7 @@ class UnitElimination {
 };
 
 /// The nonzero diagonal, not yet in divisibility order, of a dense matrix given by columns.
-std::vector<Integer> diagonalise(std::vector<std::vector<Integer>> columns) {
+std::vector<Integer> diagonalise(std::vector<std::vector<Integer>> columns, RunWatch* watch) {
   std::vector<Integer> diagonal;
   while (true) {
     // The smallest entry as pivot keeps remainders small.
@@ -133,6 +136,7 @@ std::vector<Integer> diagonalise(std::vector<std::vector<Integer>> columns) {
     bool remainder = false;
     const Integer pivot = columns[col][row];
     for (std::size_t c = 0; c < columns.size(); ++c) {
+      if (watch != nullptr) watch->check();
       if (c == col || columns[c][row] == 0) continue;
       const Integer factor = columns[c][row] / pivot;
       for (std::size_t r = 0; r < columns[c].size(); ++r) {
@@ -157,7 +161,7 @@ std::vector<Integer> diagonalise(std::vector<std::vector<Integer>> columns) {
 
 }  // namespace
 
-SmithForm smith_form(SparseIntegerMatrix matrix) {
+SmithForm smith_form(SparseIntegerMatrix matrix, RunWatch* watch) {
   for (const auto& column : matrix.columns) {
     for (const Entry& entry : column) {
       if (entry.row >= matrix.num_rows)
@@ -165,7 +169,7 @@ SmithForm smith_form(SparseIntegerMatrix matrix) {
     }
   }
   SmithForm form;
-  form.rank = UnitElimination(matrix).run();
+  form.rank = UnitElimination(matrix, watch).run();
 
   std::vector<std::uint32_t> dense_row(matrix.num_rows, kNone);
   std::uint32_t num_rows = 0;
@@ -180,7 +184,7 @@ SmithForm smith_form(SparseIntegerMatrix matrix) {
     rest.emplace_back(num_rows);
     for (const Entry& entry : column) rest.back()[dense_row[entry.row]] = entry.value;
   }
-  std::vector<Integer> diagonal = diagonalise(std::move(rest));
+  std::vector<Integer> diagonal = diagonalise(std::move(rest), watch);
   form.rank += diagonal.size();
   // diag(a, b) is equivalent to diag(gcd, lcm).
   for (std::size_t i = 0; i < diagonal.size(); ++i) {

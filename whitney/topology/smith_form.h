@@ -6,6 +6,8 @@
 
 #include <boost/multiprecision/cpp_int.hpp>
 
+#include <coxeter/base/run_watch.h>
+
 namespace whitney {
 
 /// An integer of any size; products of boundary matrices leave 64 bits without warning.
@@ -29,7 +31,7 @@ struct SmithForm {
 
 /// Smith normal form: unit pivots are eliminated on the sparse matrix, what is left is diagonalised densely, in cubic
 /// time with growing numbers: 20 s were measured for 160 dense columns without units, which only random complexes had
-/// so far. Throws InvalidInput for a row out of range.
-SmithForm smith_form(SparseIntegerMatrix matrix);
+/// so far. Throws InvalidInput for a row out of range, and RunWatch::Stopped where a watch is given and says so.
+SmithForm smith_form(SparseIntegerMatrix matrix, RunWatch* watch = nullptr);
 
 }  // namespace whitney

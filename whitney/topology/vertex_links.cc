@@ -5,6 +5,8 @@
 #include <limits>
 #include <numeric>
 
+#include <coxeter/base/disjoint_sets.h>
+#include <coxeter/base/run_watch.h>
 #include <whitney/topology/chain_complex.h>
 #include <whitney/topology/face_lattice.h>
 #include <whitney/topology/homology.h>
@@ -16,18 +18,30 @@ constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
 class LinkChecker {
  public:
-  explicit LinkChecker(const SimplicialMesh& mesh) : n_(mesh.dim), links_(mesh.dim + 1), singular_(mesh.num_points()) {
+  LinkChecker(const SimplicialMesh& mesh, const RunControl& run)
+      : n_(mesh.dim), links_(mesh.dim + 1), singular_(mesh.num_points()), run_(run), watch_(run, "links") {
     for (Link& link : links_) link.number.assign(mesh.num_points(), kNone);
     links_[0].simplices = mesh.simplices;
   }
 
   LinkReport run() {
-    visit(0);
+    try {
+      if (!watch_.fits(star_bytes()) || watch_.stopped_now()) throw RunWatch::Stopped{};
+      visit(0);
+    } catch (const RunWatch::Stopped&) {
+      report_.stop_reason = watch_.reason();
+      report_.proved = false;
+    }
     report_.singular_vertices = std::count(singular_.begin(), singular_.end(), true);
     return std::move(report_);
   }
 
  private:
+  /// What visit() takes for the mesh; smaller links take less.
+  std::uint64_t star_bytes() const {
+    return 4 * (links_[0].simplices.size() + singular_.size() * static_cast<std::size_t>(n_ + 4));
+  }
+
   /// The link of a face, with vertices numbered 0, 1, ..; reused for all faces of one dimension.
   struct Link {
     std::vector<std::uint32_t> simplices;  // first in vertices of the mesh, then in numbers
@@ -35,13 +49,14 @@ class LinkChecker {
     std::vector<std::uint32_t> number;     // of a vertex of the mesh in this link, or kNone
     std::vector<std::uint32_t> star_begin;
     std::vector<std::uint32_t> star;  // simplices around each vertex
-    std::vector<std::uint32_t> parent;
+    DisjointSets sets;
     std::vector<std::uint32_t> count;
   };
 
   /// Checks the link in links_[level] of face_, which has `level` vertices, and the links of the faces that add larger
   /// vertices. For level 0 the link is the mesh.
   void visit(int level) {
+    watch_.check();
     Link& link = links_[level];
     const int m = n_ - level;  // its dimension
     number_vertices(link);
@@ -116,21 +131,10 @@ class LinkChecker {
   }
 
   static std::size_t count_components(Link& link, int m) {
-    std::vector<std::uint32_t>& parent = link.parent;
-    parent.resize(link.vertices.size());
-    std::iota(parent.begin(), parent.end(), 0);
-    const auto find = [&](std::uint32_t x) {
-      while (parent[x] != x) x = parent[x] = parent[parent[x]];
-      return x;
-    };
-    std::size_t components = parent.size();
+    link.sets.reset(link.vertices.size());
+    std::size_t components = link.vertices.size();
     for (std::size_t i = 0; i < link.simplices.size(); i += m + 1) {
-      const std::uint32_t root = find(link.simplices[i]);
-      for (int k = 1; k <= m; ++k) {
-        const std::uint32_t other = find(link.simplices[i + k]);
-        components -= other != root;
-        parent[other] = root;
-      }
+      for (int k = 1; k <= m; ++k) components -= link.sets.unite(link.simplices[i], link.simplices[i + k]);
     }
     return components;
   }
@@ -165,7 +169,13 @@ class LinkChecker {
     std::vector<std::uint32_t> cofacets(lattice.num_faces(m - 1), 0);
     for (std::uint32_t f : lattice.facets[m].index) ++cofacets[f];
     const bool closed = std::find(cofacets.begin(), cofacets.end(), 1) == cofacets.end();
-    const Homology found = homology(lattice.facets, simplicial_signs(lattice.facets));
+    RunControl run = run_;
+    run.time_limit -= watch_.seconds();
+    const Homology found = homology(lattice.facets, simplicial_signs(lattice.facets), run);
+    if (found.stop_reason != StopReason::kNone) {
+      watch_.stop(found.stop_reason);
+      throw RunWatch::Stopped{};
+    }
     std::vector<HomologyGroup> wanted(m + 1);
     wanted[0].rank = 1;
     wanted[m].rank = closed ? 1 : 0;
@@ -191,14 +201,16 @@ class LinkChecker {
   std::vector<Link> links_;
   std::vector<bool> singular_;
   std::vector<std::uint32_t> face_;
+  const RunControl& run_;
+  RunWatch watch_;
   LinkReport report_;
 };
 
 }  // namespace
 
-LinkReport check_vertex_links(const SimplicialMesh& mesh) {
+LinkReport check_vertex_links(const SimplicialMesh& mesh, const RunControl& run) {
   face_lattice(mesh, mesh.dim);  // rejects what is not a simplicial complex
-  return LinkChecker(mesh).run();
+  return LinkChecker(mesh, run).run();
 }
 
 }  // namespace whitney

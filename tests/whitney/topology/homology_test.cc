@@ -5,6 +5,7 @@
 
 #include <coxeter/base/error.h>
 #include "test_complexes.h"
+#include "topology/betti_by_elimination.h"
 
 namespace whitney {
 namespace {

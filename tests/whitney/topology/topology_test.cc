@@ -247,5 +247,62 @@ TEST(Topology, AMeshAndItsFaceLatticeAgree) {
   }
 }
 
+// A limit leaves out what it does not reach, and never leaves a wrong value.
+TEST(Topology, LimitsLeaveOut) {
+  const SimplicialMesh torus = testing::grid_surface(40, 40, Side::kGlued, Side::kGlued);
+  const Topology whole = topology_of(torus);
+  EXPECT_TRUE(whole.left_out.empty());
+  EXPECT_EQ(whole.stop_reason, StopReason::kNone);
+
+  const auto expect_counts_only = [&](const TopologyOptions& options, StopReason reason) {
+    const Topology found = topology_of(torus, options);
+    EXPECT_EQ(found.f_vector, whole.f_vector);
+    EXPECT_EQ(found.euler_characteristic, 0);
+    EXPECT_EQ(found.components, 1u);
+    EXPECT_TRUE(found.orientable);
+    EXPECT_FALSE(found.homology_z.has_value());
+    EXPECT_FALSE(found.betti_z2.has_value());
+    EXPECT_EQ(found.manifold, ManifoldKind::kNotChecked);
+    EXPECT_FALSE(found.links_proved);
+    EXPECT_EQ(found.left_out, (std::vector<std::string>{"homology", "vertex links"}));
+    EXPECT_EQ(found.stop_reason, reason);
+  };
+  expect_counts_only({.run = {.time_limit = -1}}, StopReason::kTimeLimit);
+  expect_counts_only({.run = {.memory_limit = 1000}}, StopReason::kMemoryLimit);
+  expect_counts_only({.run = {.progress = [](const Progress&) { return false; }}}, StopReason::kCancelled);
+  expect_counts_only({.begin_part = [](const char*, const auto&) { return false; }}, StopReason::kNone);
+
+  // In the midst of each part.
+  for (const std::string phase : {"homology", "links"}) {
+    int calls = 0;
+    const Topology found = topology_of(
+        torus, {.run = {.progress = [&](const Progress& at) { return at.phase != phase || ++calls <= 3; }}});
+    EXPECT_EQ(calls, 4) << phase;
+    EXPECT_EQ(found.homology_z.has_value(), phase == "links");
+    EXPECT_EQ(found.manifold, phase == "links" ? ManifoldKind::kNotChecked : ManifoldKind::kClosed);
+    EXPECT_EQ(found.left_out.size(), 1u);
+    EXPECT_EQ(found.stop_reason, StopReason::kCancelled);
+  }
+  // Limits that are not reached change nothing.
+  const Topology limited = topology_of(torus, {.run = {.time_limit = 1e6, .memory_limit = std::uint64_t{1} << 50}});
+  EXPECT_EQ(limited.homology_z, whole.homology_z);
+  EXPECT_EQ(limited.manifold, ManifoldKind::kClosed);
+  EXPECT_TRUE(limited.left_out.empty());
+}
+
+// A bad link that was found before the limit is a proof.
+TEST(Topology, ADefectOutlivesALimit) {
+  // Three triangles at an edge come first, a large torus after them.
+  const SimplicialMesh book = mesh_of(2, {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}});
+  const SimplicialMesh mesh = testing::disjoint_union(book, testing::grid_surface(40, 40, Side::kGlued, Side::kGlued));
+  int calls = 0;
+  const Topology found =
+      topology_of(mesh, {.homology = false, .run = {.progress = [&](const Progress&) { return ++calls <= 3; }}});
+  EXPECT_EQ(found.stop_reason, StopReason::kCancelled);
+  EXPECT_EQ(found.manifold, ManifoldKind::kSingular);
+  EXPECT_EQ(found.left_out, (std::vector<std::string>{"vertex links"}));
+  EXPECT_FALSE(found.links_proved);
+}
+
 }  // namespace
 }  // namespace whitney

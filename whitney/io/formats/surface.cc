@@ -3,30 +3,32 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <cstdint>
+
+#include <whitney/topology/incidence.h>
+#include <whitney/topology/orientation.h>
 
 namespace whitney::io {
 
 namespace {
 
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-
 struct HalfEdge {
   std::uint32_t low, high;  ///< its ends
-  std::uint32_t cell;
-  bool upward;  ///< runs from low to high
+  std::uint32_t slot;       ///< of the corner where it begins
+  bool upward;              ///< runs from low to high
 };
 
 /// All half-edges with those of one edge side by side: counting sort by the low end, then small sorts.
-std::vector<HalfEdge> sorted_half_edges(const MeshView& mesh, std::vector<std::size_t>& bucket) {
-  bucket.assign(mesh.num_points() + 1, 0);
+std::vector<HalfEdge> sorted_half_edges(const MeshView& mesh) {
+  std::vector<std::size_t> bucket(mesh.num_points() + 1, 0);
   const auto for_each = [&mesh](auto visit) {
+    std::uint32_t slot = 0;
     for (std::size_t c = 0; c < mesh.num_cells(); ++c) {
       const auto cell = mesh.cell(c);
       for (std::size_t i = 0; i < cell.size(); ++i) {
         const std::uint32_t a = cell[i];
         const std::uint32_t b = cell[i + 1 == cell.size() ? 0 : i + 1];
-        visit(HalfEdge{std::min(a, b), std::max(a, b), static_cast<std::uint32_t>(c), a < b});
+        visit(HalfEdge{std::min(a, b), std::max(a, b), slot++, a < b});
       }
     }
   };
@@ -38,77 +40,38 @@ std::vector<HalfEdge> sorted_half_edges(const MeshView& mesh, std::vector<std::s
   for (std::size_t v = 0; v + 1 < bucket.size(); ++v) {
     std::sort(sorted.begin() + static_cast<std::ptrdiff_t>(bucket[v]),
               sorted.begin() + static_cast<std::ptrdiff_t>(bucket[v + 1]), [](const HalfEdge& a, const HalfEdge& b) {
-                return a.high != b.high ? a.high < b.high : a.cell < b.cell;
+                return a.high != b.high ? a.high < b.high : a.slot < b.slot;
               });
   }
   return sorted;
 }
 
-struct Neighbour {
-  std::uint32_t cell = kNone;
-  bool agrees = false;
-};
-
 }  // namespace
 
 bool orient_cells(MeshView& mesh) {
-  const std::size_t num_cells = mesh.num_cells();
-  std::vector<std::size_t> first(num_cells + 1, 0);
-  for (std::size_t c = 0; c < num_cells; ++c) first[c + 1] = first[c] + mesh.cell(c).size();
-
-  // The neighbours of a cell, in any order, in the slots of its corners.
-  std::vector<Neighbour> neighbours(mesh.corners.size());
-  {
-    std::vector<std::size_t> bucket;
-    const std::vector<HalfEdge> edges = sorted_half_edges(mesh, bucket);
-    std::vector<std::size_t> next(first.begin(), first.end() - 1);
-    for (std::size_t i = 0; i < edges.size();) {
-      std::size_t j = i + 1;
-      while (j < edges.size() && edges[j].low == edges[i].low && edges[j].high == edges[i].high) ++j;
-      if (j - i == 2) {
-        const bool agree = edges[i].upward != edges[i + 1].upward;
-        neighbours[next[edges[i].cell]++] = {edges[i + 1].cell, agree};
-        neighbours[next[edges[i + 1].cell]++] = {edges[i].cell, agree};
-      }
-      i = j;
-    }
+  // The edges of a cell in the order of its corners; the sign of an edge is its direction in the cell.
+  Incidence edges;
+  for (std::size_t c = 0; c < mesh.num_cells(); ++c)
+    edges.offset.push_back(edges.offset.back() + static_cast<std::uint32_t>(mesh.cell(c).size()));
+  edges.index.resize(edges.offset.back());
+  std::vector<std::int8_t> signs(edges.index.size());
+  std::uint32_t num_edges = 0;
+  const HalfEdge* last = nullptr;
+  const std::vector<HalfEdge> half_edges = sorted_half_edges(mesh);
+  for (const HalfEdge& h : half_edges) {
+    if (last == nullptr || last->low != h.low || last->high != h.high) ++num_edges;
+    edges.index[h.slot] = num_edges - 1;
+    signs[h.slot] = h.upward ? 1 : -1;
+    last = &h;
   }
-
-  bool all_orientable = true;
-  std::vector<char> seen(num_cells, 0), turned(num_cells, 0);
-  std::vector<std::uint32_t> component;
-  for (std::uint32_t start = 0; start < num_cells; ++start) {
-    if (seen[start]) continue;
-    component.assign(1, start);
-    seen[start] = 1;
-    bool orientable = true;
-    for (std::size_t i = 0; i < component.size(); ++i) {
-      const std::uint32_t c = component[i];
-      for (std::size_t k = first[c]; k < first[c + 1] && neighbours[k].cell != kNone; ++k) {
-        const auto [other, agrees] = neighbours[k];
-        const char wanted = agrees ? turned[c] : static_cast<char>(!turned[c]);
-        if (!seen[other]) {
-          seen[other] = 1;
-          turned[other] = wanted;
-          component.push_back(other);
-        } else if (turned[other] != wanted) {
-          orientable = false;
-        }
-      }
-    }
-    if (!orientable) {
-      for (const std::uint32_t c : component) turned[c] = 0;
-      all_orientable = false;
-    }
+  const CellOrientation orientation = whitney::orient_cells(edges, signs, num_edges);
+  for (std::size_t c = 0; c < mesh.num_cells(); ++c) {
+    if (orientation.sign[c] > 0) continue;
+    // The first corner stays first.
+    std::reverse(mesh.corners.begin() + static_cast<std::ptrdiff_t>(edges.offset[c]) + 1,
+                 mesh.corners.begin() + static_cast<std::ptrdiff_t>(edges.offset[c + 1]));
   }
-  for (std::size_t c = 0; c < num_cells; ++c) {
-    if (turned[c]) {
-      // The first corner stays first.
-      std::reverse(mesh.corners.begin() + static_cast<std::ptrdiff_t>(first[c]) + 1,
-                   mesh.corners.begin() + static_cast<std::ptrdiff_t>(first[c + 1]));
-    }
-  }
-  return all_orientable;
+  return orientation.all_orientable();
 }
 
 std::array<double, 3> area_vector(const MeshView& mesh, std::size_t cell) {
