@@ -4,12 +4,12 @@
 // runs interleaved, CPU seconds, ratios of medians of the time per stratum point found.
 //
 //   boundary_bench [RUNS]
-#include <time.h>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
+#include <time.h>
 #include <vector>
 
 #include <coxeter/triangulation.h>

@@ -6,19 +6,19 @@
 //
 //   trace_bench [--runs R] [--peer-runs P] [case ...]
 // P times: one run of the peer, then R of ours. Cases: s2r3 t2r4 s3r6 t2r8 t2r10 t2r10fine
-#include <malloc.h>
-#include <sys/wait.h>
-#include <time.h>
-#include <unistd.h>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <functional>
+#include <malloc.h>
 #include <memory>
 #include <optional>
 #include <string>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
 #include <vector>
 
 #include <Eigen/Dense>

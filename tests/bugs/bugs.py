@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Bugs that a test must catch. Each breaks one promise of the library.
 
-A bug is a list of edits (file, text, replacement), the executable of a test and its filter. A text must be found exactly
+A bug is a list of edits (file, text, replacement), the executable of a test, its source and its filter. A text must be found exactly
 once in its file, so that a bug that no longer applies says so: then find the place that keeps the promise today, and put
 the bug there. The file may be a glob pattern, for code that moves: the text must be found once in all files together.
 """
@@ -15,6 +15,7 @@ class Bug:
     promise: str
     edits: tuple  # of (file or pattern, text, replacement)
     test: str  # coxeter, perturbation or whitney: the executable
+    source: str  # the file of the test is SOURCE_test.cc
     filter: str
 
 
@@ -24,6 +25,7 @@ BUGS = (
         "a cofacet that was crossed is known on both its sides",
         (("whitney/tracing/*.cc", "  simplices_.set_flag(id, step.flag);\n", ""),),
         "whitney",
+        "boundary_trace",
         "Boundary.OctantOfTheSphere*:Boundary.CurvesWithEnds",
     ),
     Bug(
@@ -31,6 +33,7 @@ BUGS = (
         "a tie of two ratios is broken by the powers of eps, never by the order of the rows",
         (("whitney/tracing/exact_pivot.cc", "    if (order < 0) {\n", "    if (order <= 0) {\n"),),
         "whitney",
+        "exact_pivot",
         "ExactPivot.*",
     ),
     Bug(
@@ -44,6 +47,7 @@ BUGS = (
             ),
         ),
         "whitney",
+        "exact_pivot",
         "ExactPivot.*",
     ),
     Bug(
@@ -57,6 +61,7 @@ BUGS = (
             ),
         ),
         "perturbation",
+        "proof_ingredients",
         "Errors.*",
     ),
     Bug(
@@ -67,6 +72,7 @@ BUGS = (
             ("perturbation/certificate_proof.cc", "    if (!(height[i].sup() < far.inf())) return proof;\n", "    (void)far;\n"),
         ),
         "perturbation",
+        "certificate",
         "Certificate.EachConditionCanFail",
     ),
     Bug(
@@ -74,6 +80,7 @@ BUGS = (
         "the proof is in interval arithmetic, and hands the rounding mode back",
         (("perturbation/certificate_proof.cc", "  const Rounding rounding;\n  Interval departure(0);\n", "  Interval departure(0);\n"),),
         "perturbation",
+        "proof_ingredients",
         "RoundingGuard.*",
     ),
     Bug(
@@ -92,6 +99,7 @@ BUGS = (
             ),
         ),
         "whitney",
+        "kernel_bounds",
         "KernelBounds.*",
     ),
     Bug(
@@ -99,6 +107,7 @@ BUGS = (
         "a cell of a stopped trace is whole or not there",
         (("whitney/cells/*.cc", "  if (cell_dim == 1) return cell_facets.size() == 2;\n", "  if (cell_dim >= 1) return true;\n"),),
         "whitney",
+        "cell_complex",
         "CellComplex.AStoppedTrace*",
     ),
     Bug(
@@ -106,6 +115,7 @@ BUGS = (
         "a stratum holds the cells with one set of inequalities",
         (("whitney/cells/strata.cc", "    if (s == t) partition.join(", "    partition.join("),),
         "whitney",
+        "boundary_trace",
         "Boundary.OctantOfTheSphere*",
     ),
     Bug(
@@ -119,6 +129,7 @@ BUGS = (
             ),
         ),
         "whitney",
+        "chain_complex",
         "ChainComplex.*",
     ),
     Bug(
@@ -126,6 +137,7 @@ BUGS = (
         "a file that was committed is there under its name",
         (("whitney/io/atomic_file.cc", "  if (::rename(temporary_.c_str(), final_.c_str()) != 0) fail(errno);\n", ""),),
         "whitney",
+        "atomic_file",
         "AtomicFileTest.AppearsOnCommitOnly",
     ),
     Bug(
@@ -133,6 +145,7 @@ BUGS = (
         "a walk that keeps to a region is certified away from its boundary",
         (("perturbation/*.cc", "trace.region && !trace.region(near, other)", "false"),),
         "whitney",
+        "triangulate",
         "Triangulate.APartNearADomainIsCertifiedByItself",
     ),
 )
