@@ -7,9 +7,9 @@
 #include <random>
 #include <vector>
 
-#include <Eigen/Dense>
 #include <gtest/gtest.h>
 #include <tests/coxeter/brute_force.h>
+#include <Eigen/Dense>
 
 #include <coxeter/base/error.h>
 #include <coxeter/quality.h>
@@ -31,6 +31,7 @@ class Sphere : public FootOracle {
   int intrinsic_dim() const override { return n_; }
   double reach() const override { return 1; }
   double curvature_radius() const override { return 1; }
+  FootPromise promise() const override { return {FootPromise::Place::kGlobal, FootPromise::Errors::kProven}; }
   bool foot(std::span<const double> x, std::span<double> point, std::span<double> frame,
             FootErrors& errors) const override {
     errors = {1e-15, 1e-15};

@@ -23,6 +23,7 @@ class SphereOracle : public FootOracle {
   int intrinsic_dim() const override { return n_; }
   double reach() const override { return reach_; }
   double curvature_radius() const override { return reach_; }
+  FootPromise promise() const override { return {FootPromise::Place::kGlobal, FootPromise::Errors::kProven}; }
   bool foot(std::span<const double> x, std::span<double> point, std::span<double> frame,
             FootErrors& errors) const override {
     double length = 0;

@@ -98,7 +98,7 @@ std::string describe_verdict(const TriangulateResult& result, const Bending& ben
          << ", given its reach " << bending.reach << " (" << to_string(bending.source) << ")";
     if (bending.source == Bending::Source::kEstimated) text << ": an estimate, so this is no proof";
     text << "\n  margins: worst " << report.margin_min << ", median " << report.margin_median;
-    if (!result.cut) text << "; Hausdorff distance at most " << result.hausdorff_bound;
+    if (result.hausdorff_bound) text << "; Hausdorff distance at most " << *result.hausdorff_bound;
     text << "\n";
   } else {
     text << report.reason << "\n";

@@ -16,6 +16,8 @@ constexpr double kEps = std::numeric_limits<double>::epsilon();
 constexpr double kMedial = 1e-12;
 /// Roundings in one of the formulas below, generously.
 constexpr double kRoundings = 32;
+/// The closest point is written out, and its roundings are counted.
+constexpr FootPromise kPromise{FootPromise::Place::kGlobal, FootPromise::Errors::kProven};
 
 void require(bool condition, const std::string& message) {
   if (!condition) throw InvalidInput(message);
@@ -64,7 +66,9 @@ class Sphere : public Submanifold::Model {
     errors = rounding(radius_, size, length);
     return true;
   }
+  FootPromise promise() const override { return kPromise; }
   std::optional<Bending> bending() const override { return Bending{radius_, radius_, Bending::Source::kProven}; }
+  bool is_connected() const override { return true; }
   std::vector<double> seed_points() const override {
     std::vector<double> seed(d_, 0.0);
     seed[0] = radius_;
@@ -98,11 +102,13 @@ class TorusOfRevolution : public Submanifold::Model {
     errors = rounding(R_ + r_, size, std::min(rho, length));
     return true;
   }
+  FootPromise promise() const override { return kPromise; }
   std::optional<Bending> bending() const override {
     // Rounded down: R - r was rounded.
     const double reach = std::min(r_, std::nextafter(R_ - r_, 0.0));
     return Bending{reach, reach, Bending::Source::kProven};
   }
+  bool is_connected() const override { return true; }
   std::vector<double> seed_points() const override { return {R_ + r_, 0, 0}; }
 
  private:
@@ -136,10 +142,12 @@ class FlatTorus : public Submanifold::Model {
     errors = rounding(std::max(radius_[0], radius_[1]), size, nearest_axis);
     return true;
   }
+  FootPromise promise() const override { return kPromise; }
   std::optional<Bending> bending() const override {
     const double reach = std::min(radius_[0], radius_[1]);
     return Bending{reach, reach, Bending::Source::kProven};
   }
+  bool is_connected() const override { return true; }
   std::vector<double> seed_points() const override {
     std::vector<double> seed(d_, 0.0);
     seed[0] = radius_[0];

@@ -31,6 +31,8 @@ class ImplicitModel : public Submanifold::Model {
 
   int ambient_dim() const override { return f_.ambient_dim(); }
   int intrinsic_dim() const override { return f_.ambient_dim() - f_.codim(); }
+  /// Newton's method may end at a point that is not the closest, and the error bounds are of first order.
+  FootPromise promise() const override { return {FootPromise::Place::kLocal, FootPromise::Errors::kModelled}; }
   std::optional<Bending> bending() const override { return std::nullopt; }
   std::vector<double> seed_points() const override { return seed_points_; }
 

@@ -21,6 +21,8 @@ constexpr double kEps = std::numeric_limits<double>::epsilon();
 constexpr double kMedial = 1e-12;
 /// Times the size of the matrix: the backward error of Eigen's decompositions in units of rounding, generously.
 constexpr double kRoundings = 64;
+/// The closest point is known (Eckart and Young, Fan and Hoffman), and the decompositions are backward stable.
+constexpr FootPromise kPromise{FootPromise::Place::kGlobal, FootPromise::Errors::kProven};
 
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxSize, kMaxSize>;
 
@@ -105,11 +107,13 @@ class Grassmann : public Submanifold::Model {
     errors = {relative, relative};
     return true;
   }
+  FootPromise promise() const override { return kPromise; }
   std::optional<Bending> bending() const override {
     // The double nearest to sqrt(1/2) is above it.
     const double reach = std::nextafter(std::sqrt(0.5), 0.0);
     return Bending{reach, reach, Bending::Source::kProven};
   }
+  bool is_connected() const override { return true; }
   std::vector<double> seed_points() const override {
     Eigen::MatrixXd A = Eigen::MatrixXd::Zero(q_, q_);
     for (int i = 0; i < p_; ++i) A(i, i) = 1;
@@ -172,11 +176,13 @@ class OrthonormalColumns : public Submanifold::Model {
     errors = {relative * std::sqrt(static_cast<double>(p_)), relative};
     return true;
   }
+  FootPromise promise() const override { return kPromise; }
   std::optional<Bending> bending() const override {
     // The double nearest to sqrt(2) is above it.
     const double reach = p_ == q_ ? std::nextafter(std::sqrt(2.0), 0.0) : 1;
     return Bending{reach, reach, Bending::Source::kProven};
   }
+  bool is_connected() const override { return true; }
   std::vector<double> seed_points() const override {
     std::vector<double> seed(p_ * q_, 0.0);
     for (int i = 0; i < p_; ++i) seed[i * q_ + i] = 1;

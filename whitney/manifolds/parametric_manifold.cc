@@ -119,10 +119,14 @@ class ParametricModel : public Submanifold::Model, public std::enable_shared_fro
     return frame_at(const_span_of(best), frame, errors);
   }
 
+  /// A closer point may have been missed, and the error bounds are of first order.
+  FootPromise promise() const override { return {FootPromise::Place::kLocal, FootPromise::Errors::kModelled}; }
   std::optional<Bending> bending() const override {
     std::call_once(bending_once_, [&] { bending_ = estimate_bending(Submanifold(shared_from_this())).bending; });
     return bending_;
   }
+  /// The image of a box.
+  bool is_connected() const override { return true; }
   std::vector<double> seed_points() const override {
     const auto point = tree_->point(0);
     return {point.begin(), point.end()};

@@ -20,8 +20,10 @@ class WithBending : public Submanifold::Model {
                FootErrors& errors) const override {
     return manifold_.project(x, point, frame, errors);
   }
+  FootPromise promise() const override { return manifold_.promise(); }
   std::optional<Bending> bending() const override { return bending_; }
   std::vector<double> seed_points() const override { return manifold_.seed_points(); }
+  bool is_connected() const override { return manifold_.is_connected(); }
 
  private:
   Submanifold manifold_;
@@ -58,17 +60,6 @@ double orthogonalise(const double* rows, std::size_t count, double* row, std::si
 }
 
 }  // namespace
-
-const char* to_string(Bending::Source source) {
-  switch (source) {
-    case Bending::Source::kProven:
-      return "proven";
-    case Bending::Source::kCaller:
-      return "caller";
-    default:
-      return "estimated";
-  }
-}
 
 bool Submanifold::project(std::span<const double> x, std::span<double> point, std::span<double> frame,
                           FootErrors& errors) const {

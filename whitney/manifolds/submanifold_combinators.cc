@@ -65,6 +65,7 @@ class MovedModel : public Submanifold::Model {
     errors.angle += map_.turn_rounding(d);
     return true;
   }
+  FootPromise promise() const override { return M_.promise(); }
   std::optional<Bending> bending() const override {
     std::optional<Bending> bending = M_.bending();
     if (bending) {
@@ -73,6 +74,7 @@ class MovedModel : public Submanifold::Model {
     }
     return bending;
   }
+  bool is_connected() const override { return M_.is_connected(); }
   std::vector<double> seed_points() const override {
     const std::size_t d = ambient_dim();
     const std::vector<double> seeds = M_.seed_points();
@@ -168,12 +170,14 @@ class ProductModel : public Submanifold::Model {
     for (std::size_t i = 0; i < e; ++i) std::copy_n(&G[i * e], e, &frame[(i < n ? i + m : i + d) * (d + e) + d]);
     return true;
   }
+  FootPromise promise() const override { return perturbation::weaker(M_.promise(), N_.promise()); }
   std::optional<Bending> bending() const override {
     const std::optional<Bending> a = M_.bending(), b = N_.bending();
     if (!a || !b) return std::nullopt;
     return Bending{std::min(a->reach, b->reach), std::min(a->curvature_radius, b->curvature_radius),
                    std::max(a->source, b->source)};
   }
+  bool is_connected() const override { return M_.is_connected() && N_.is_connected(); }
   std::vector<double> seed_points() const override {
     const std::size_t d = M_.ambient_dim(), e = N_.ambient_dim();
     const std::vector<double> a = M_.seed_points(), b = N_.seed_points();
@@ -209,7 +213,9 @@ class EmbeddedModel : public Submanifold::Model {
     for (std::size_t i = d; i < e; ++i) frame[i * e + i] = 1;
     return true;
   }
+  FootPromise promise() const override { return M_.promise(); }
   std::optional<Bending> bending() const override { return M_.bending(); }
+  bool is_connected() const override { return M_.is_connected(); }
   std::vector<double> seed_points() const override {
     const std::size_t d = M_.ambient_dim(), e = ambient_dim_;
     const std::vector<double> seeds = M_.seed_points();
