@@ -110,10 +110,6 @@ BarycentricBounds barycentric_bounds(const double* const* vertices, int ambient_
   return bounds;
 }
 
-bool proved_inside(const double* const* vertices, int ambient_dim, const double* point, double error) {
-  return barycentric_bounds(vertices, ambient_dim, point, error).inside();
-}
-
 std::vector<std::uint32_t> proved_cover(PerturbedTriangulation& near, std::span<const double> point, double error,
                                         std::size_t max_simplices) {
   const int d = near.ambient_dim();

@@ -25,10 +25,6 @@ struct BarycentricBounds {
 /// An infinite slack when nothing can be proved: the simplex is flat, or numbers are out of range.
 BarycentricBounds barycentric_bounds(const double* const* vertices, int ambient_dim, const double* point, double error);
 
-/// Whether interval arithmetic proves that every point within `error` of `point` (d) lies in the interior of the
-/// d-simplex with these vertices.
-bool proved_inside(const double* const* vertices, int ambient_dim, const double* point, double error);
-
 /// d-simplices of T~ whose union is proved to hold every point within `error` (a length, >= 0) of `point` (d); provided
 /// that T~ is embedded, see CertificateReport::embedded. One when the ball is inside a simplex; those around a face when
 /// the ball touches it. Empty when nothing can be proved with `max_simplices`.

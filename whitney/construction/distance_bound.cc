@@ -25,6 +25,7 @@ std::optional<double> distance_from_manifold(std::span<const double> points, int
       for (std::size_t c = 0; c < d; ++c) sum += foot.frame[row * d + c] * (points[i + c] - foot.point[c]);
       (row < n ? along : off) += sum * sum;
     }
+    if (!std::isfinite(along + off)) return std::nullopt;
     tangential = std::max(tangential, along);
     normal = std::max(normal, off);
     farthest = std::max(farthest, along + off);
