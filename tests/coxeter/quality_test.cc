@@ -3,13 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <random>
 #include <vector>
 
-#include <Eigen/LU>
 #include <gtest/gtest.h>
 #include <tests/coxeter/brute_force.h>
+#include <Eigen/LU>
 
 #include <coxeter/base/error.h>
 #include <coxeter/triangulation.h>
@@ -189,6 +190,53 @@ TEST(SimplexWidth, OfAnyAffineImageByAllSimplices) {
   Eigen::MatrixXd skew = Eigen::MatrixXd::Identity(13, 13);
   skew(0, 1) = 0.5;
   EXPECT_THROW(simplex_width(Triangulation(skew, Eigen::VectorXd::Zero(13))), InvalidInput);
+}
+
+/// The width for the linear part c I + J, from the inverse in closed form, in long double.
+long double width_of_sum(int d, long double c) {
+  // Gram matrix c^2 I + (2 c + d) J.
+  const long double a = c * c, b = 2 * c + d, beta = -b / (a + d * b) / a;
+  long double largest = 0;
+  for (int ones = 0; ones <= d; ++ones)
+    for (int minus = std::max(0, ones - 1); minus <= ones + 1 && ones + minus <= d; ++minus)
+      largest = std::max(largest, (ones + minus) / a + beta * (ones - minus) * (ones - minus));
+  return 1 / std::sqrt(largest);
+}
+
+TEST(SimplexWidth, IsALowerBoundHoweverIllConditioned) {
+  for (const int d : {2, 3, 5, 8})
+    for (const double shift : {1e-1, 1e-3, 1e-5, 1e-7, 1e-9, 1e-11}) {
+      const double diagonal = 1 + shift;
+      Eigen::MatrixXd A = Eigen::MatrixXd::Ones(d, d);
+      A.diagonal().setConstant(diagonal);
+      const long double exact = width_of_sum(d, static_cast<long double>(diagonal) - 1);  // no rounding
+      const double bound = simplex_width(Triangulation(A, Eigen::VectorXd::Zero(d)));
+      EXPECT_LE(bound, exact) << d << " " << shift;
+      EXPECT_GE(bound, exact * (1 - 2e-6L - 1e-12L / shift)) << d << " " << shift;
+    }
+}
+
+TEST(SimplexWidth, ClaimsLittleNextToSingularMaps) {
+  const int d = 5;
+  const double diagonal = 1 + 1e-13;
+  Eigen::MatrixXd A = Eigen::MatrixXd::Ones(d, d);
+  A.diagonal().setConstant(diagonal);
+  const double bound = simplex_width(Triangulation(A, Eigen::VectorXd::Zero(d)));
+  EXPECT_GE(bound, 0);
+  EXPECT_LE(bound, width_of_sum(d, static_cast<long double>(diagonal) - 1));
+}
+
+TEST(SimplexWidth, IsALowerBoundInHighDimensionsToo) {
+  const int d = 16;
+  for (const double shift : {1e-5, 1e-7}) {
+    const double diagonal = 1 + shift;
+    Eigen::MatrixXd A = Eigen::MatrixXd::Ones(d, d);
+    A.diagonal().setConstant(diagonal);
+    const long double exact = width_of_sum(d, static_cast<long double>(diagonal) - 1);
+    const double bound = simplex_width(Triangulation(A, Eigen::VectorXd::Zero(d)));
+    EXPECT_LE(bound, exact);
+    EXPECT_GE(bound, exact / 5);
+  }
 }
 
 }  // namespace
