@@ -68,6 +68,94 @@ const SimplicialMesh& checked(const SimplicialMesh& mesh, const Submanifold& man
   return mesh;
 }
 
+/// The points of K above a foot, from one simplex after the other.
+class PointsAbove {
+ public:
+  /// reached: how far from the foot they may be; merge: points closer than this are the same.
+  PointsAbove(const SimplicialMesh& mesh, std::span<const double> foot, std::span<const double> frame, double reached,
+              double merge)
+      : mesh_(mesh), foot_(foot), frame_(frame), reached_(reached), merge_(merge), x_(mesh.ambient_dim) {
+    for (int a = 0; a < mesh.dim; ++a)
+      for (int c = 0; c < mesh.ambient_dim; ++c) along_foot_[a] += frame[a * mesh.ambient_dim + c] * foot[c];
+  }
+
+  void look_at(std::uint32_t simplex) {
+    const int d = mesh_.ambient_dim, n = mesh_.dim;
+    if (!solve_in(simplex)) return;
+    double first = 1, least = 1;
+    for (int q = 0; q < n; ++q) {
+      first -= lambda_[q];
+      least = std::min(least, lambda_[q]);
+    }
+    least = std::min(least, first);
+    if (!(least >= -kTolerance)) return;
+    std::fill(x_.begin(), x_.end(), 0.0);
+    std::vector<double> weights(n + 1);
+    double total = 0;
+    for (int q = 0; q <= n; ++q) total += weights[q] = std::max(0.0, q == 0 ? first : lambda_[q - 1]);
+    for (int q = 0; q <= n; ++q) {
+      weights[q] /= total;
+      for (int c = 0; c < d; ++c) x_[c] += weights[q] * corner_[q][c];
+    }
+    if (const double off = distance(x_.data(), foot_.data(), d); off <= reached_) add(simplex, weights, off, least);
+  }
+
+  Preimage result() {
+    result_.num_points = points_.size() / mesh_.ambient_dim;
+    result_.status = result_.num_points == 0   ? Preimage::Status::kNone
+                     : result_.num_points == 1 ? Preimage::Status::kFound
+                                               : Preimage::Status::kAmbiguous;
+    return std::move(result_);
+  }
+
+ private:
+  /// Barycentric coordinates 1 .. n of the point with the tangential coordinates of the foot.
+  bool solve_in(std::uint32_t simplex) {
+    const int d = mesh_.ambient_dim, n = mesh_.dim;
+    const std::uint32_t* v = &mesh_.simplices[std::size_t{simplex} * (n + 1)];
+    for (int q = 0; q <= n; ++q) corner_[q] = &mesh_.points[std::size_t{v[q]} * d];
+    for (int a = 0; a < n; ++a) {
+      const double* tangent = &frame_[a * d];
+      double* row = &system_[a * (n + 1)];
+      double origin = 0;
+      for (int c = 0; c < d; ++c) origin += tangent[c] * corner_[0][c];
+      row[n] = along_foot_[a] - origin;
+      for (int q = 1; q <= n; ++q) {
+        row[q - 1] = -origin;
+        for (int c = 0; c < d; ++c) row[q - 1] += tangent[c] * corner_[q][c];
+      }
+    }
+    return solve(system_.data(), lambda_.data(), n);
+  }
+
+  /// Of several points the nearest one is kept; of several simplices around one point the one that it is most inside.
+  void add(std::uint32_t simplex, const std::vector<double>& weights, double off, double least) {
+    const int d = mesh_.ambient_dim;
+    bool is_new = true;
+    for (std::size_t i = 0; i < points_.size() && is_new; i += d) is_new = distance(x_.data(), &points_[i], d) > merge_;
+    if (points_.empty() ||
+        (is_new ? off < result_.distance : distance(x_.data(), result_.point.data(), d) <= merge_ && least > best_)) {
+      best_ = least;
+      result_.simplex = simplex;
+      result_.barycentric = weights;
+      result_.point = x_;
+      result_.distance = off;
+    }
+    if (is_new) points_.insert(points_.end(), x_.begin(), x_.end());
+  }
+
+  const SimplicialMesh& mesh_;
+  std::span<const double> foot_, frame_;
+  double reached_, merge_;
+  std::array<double, kMaxIntrinsic> along_foot_{}, lambda_{};
+  std::array<double, kMaxIntrinsic*(kMaxIntrinsic + 1)> system_;
+  std::array<const double*, kMaxIntrinsic + 1> corner_;
+  std::vector<double> x_;
+  double best_ = 0;             // least barycentric coordinate of the solution kept
+  std::vector<double> points_;  // distinct solutions
+  Preimage result_;
+};
+
 std::vector<double> barycentres_of(const SimplicialMesh& mesh) {
   const int d = mesh.ambient_dim, size = mesh.dim + 1;
   std::vector<double> points(mesh.num_simplices() * d, 0.0);
@@ -110,26 +198,19 @@ std::vector<double> Correspondence::to_manifold(std::span<const double> x) const
 
 Preimage Correspondence::from_manifold(std::span<const double> y) const {
   const int d = mesh_.ambient_dim, n = mesh_.dim;
-  Preimage result;
   std::vector<double> foot(d), frame(static_cast<std::size_t>(d) * d);
   FootErrors errors;
   if (!manifold_.project(y, foot, frame, errors)) {
+    Preimage result;
     result.status = Preimage::Status::kNoFoot;
     return result;
   }
-  std::array<double, kMaxIntrinsic> along_foot{}, lambda{};
-  std::array<double, kMaxIntrinsic*(kMaxIntrinsic + 1)> system;
-  std::array<const double*, kMaxIntrinsic + 1> corner;
-  for (int a = 0; a < n; ++a)
-    for (int c = 0; c < d; ++c) along_foot[a] += frame[a * d + c] * foot[c];
   // Room for the rounding of the foot and of the bound.
   const double reached = distance_bound_ + 1e-9 * longest_edge_ + errors.point;
   std::vector<KdTree::Neighbor> near;
   barycentres_.within(foot, largest_radius_ + reached, near);
 
-  double best = 0;             // least barycentric coordinate of the solution kept
-  std::vector<double> points;  // distinct solutions
-  std::vector<double> x(d);
+  PointsAbove above(mesh_, foot, frame, reached, kMerge * longest_edge_);
   for (const KdTree::Neighbor& neighbor : near) {
     const double limit = radius_[neighbor.index] + reached;
     if (neighbor.squared_distance > limit * limit) continue;
@@ -142,58 +223,9 @@ Preimage Correspondence::from_manifold(std::span<const double> y) const {
       for (int c = 0; c < d; ++c) along += frame[a * d + c] * (centre[c] - foot[c]);
       tangential += along * along;
     }
-    if (tangential > radius * radius) continue;
-    const std::uint32_t* v = &mesh_.simplices[neighbor.index * (n + 1)];
-    for (int q = 0; q <= n; ++q) corner[q] = &mesh_.points[std::size_t{v[q]} * d];
-    for (int a = 0; a < n; ++a) {
-      const double* tangent = &frame[a * d];
-      double* row = &system[a * (n + 1)];
-      double origin = 0;
-      for (int c = 0; c < d; ++c) origin += tangent[c] * corner[0][c];
-      row[n] = along_foot[a] - origin;
-      for (int q = 1; q <= n; ++q) {
-        row[q - 1] = -origin;
-        for (int c = 0; c < d; ++c) row[q - 1] += tangent[c] * corner[q][c];
-      }
-    }
-    if (!solve(system.data(), lambda.data(), n)) continue;
-    double first = 1, least = 1;
-    for (int q = 0; q < n; ++q) {
-      first -= lambda[q];
-      least = std::min(least, lambda[q]);
-    }
-    least = std::min(least, first);
-    if (!(least >= -kTolerance)) continue;
-    std::fill(x.begin(), x.end(), 0.0);
-    std::vector<double> weights(n + 1);
-    double total = 0;
-    for (int q = 0; q <= n; ++q) total += weights[q] = std::max(0.0, q == 0 ? first : lambda[q - 1]);
-    for (int q = 0; q <= n; ++q) {
-      weights[q] /= total;
-      for (int c = 0; c < d; ++c) x[c] += weights[q] * corner[q][c];
-    }
-    const double off = distance(x.data(), foot.data(), d);
-    if (!(off <= reached)) continue;
-    bool is_new = true;
-    for (std::size_t i = 0; i < points.size() && is_new; i += d)
-      is_new = distance(x.data(), &points[i], d) > kMerge * longest_edge_;
-    // Of several points the nearest one; of several simplices around one point the one that it is most inside.
-    if (points.empty() ||
-        (is_new ? off < result.distance
-                : distance(x.data(), result.point.data(), d) <= kMerge * longest_edge_ && least > best)) {
-      best = least;
-      result.simplex = static_cast<std::uint32_t>(neighbor.index);
-      result.barycentric = weights;
-      result.point = x;
-      result.distance = off;
-    }
-    if (is_new) points.insert(points.end(), x.begin(), x.end());
+    if (tangential <= radius * radius) above.look_at(static_cast<std::uint32_t>(neighbor.index));
   }
-  result.num_points = points.size() / d;
-  result.status = result.num_points == 0   ? Preimage::Status::kNone
-                  : result.num_points == 1 ? Preimage::Status::kFound
-                                           : Preimage::Status::kAmbiguous;
-  return result;
+  return above.result();
 }
 
 std::optional<std::vector<double>> Correspondence::carry(std::span<const double> values, int components,
@@ -333,11 +365,16 @@ CorrespondenceCheck check_correspondence(const Correspondence& correspondence, c
 
   AngleCheck angles(correspondence, bending, options.max_depth, report);
   angles.look_at_vertices();
-  for (std::size_t s = 0; s < mesh.num_simplices(); ++s) report.steep += !angles.is_transversal(s);
+  bool complete = true;
+  const auto go_on = [&](std::size_t i) {
+    if (i % 64 == 63 && options.keep_going && !options.keep_going()) complete = false;
+    return complete;
+  };
+  for (std::size_t s = 0; s < mesh.num_simplices() && go_on(s); ++s) report.steep += !angles.is_transversal(s);
 
   std::vector<double> x(d), point(d), frame(static_cast<std::size_t>(d) * d);
   FootErrors errors;
-  for (std::size_t f = 0; f < cofacets.size(); ++f) {
+  for (std::size_t f = 0; f < cofacets.size() && go_on(f); ++f) {
     if (cofacets[f].size() != 2) {
       ++report.bad_facets;
       continue;
@@ -391,6 +428,7 @@ CorrespondenceCheck check_correspondence(const Correspondence& correspondence, c
   say(report.folded_facets, " facets are folds of the projection");
   say(report.steep, " simplices may be orthogonal to the manifold somewhere");
   say(report.covered_twice, " components are not projected injectively");
+  if (!complete && report.reason.empty()) report.reason = "the check was stopped";
   report.homeomorphism = report.reason.empty();
   return report;
 }

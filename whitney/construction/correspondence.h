@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -78,6 +79,8 @@ class Correspondence {
 struct CorrespondenceCheckOptions {
   /// A simplex is bisected at most this often until the angle with the tangent spaces is bounded on all of it.
   int max_depth = 12;
+  /// Asked every few dozen simplices; false stops the check, which then shows nothing.
+  std::function<bool()> keep_going{};
 };
 
 /// What check_correspondence found. The conditions, for K with every point within delta < R of M, R the reach:

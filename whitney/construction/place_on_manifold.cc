@@ -11,6 +11,7 @@
 #include <Eigen/Dense>
 
 #include <coxeter/base/error.h>
+#include <whitney/construction/distance_bound.h>
 
 namespace whitney {
 namespace {
@@ -23,7 +24,7 @@ class Placer {
       : manifold_(manifold),
         d_(manifold.ambient_dim()),
         n_(manifold.intrinsic_dim()),
-        radius_(std::max(bending.reach, bending.curvature_radius)),
+        bending_(bending),
         point_(d_),
         frame_(static_cast<std::size_t>(d_) * d_) {}
 
@@ -53,17 +54,15 @@ class Placer {
   }
 
   /// See PlacedComplex::distance_bound; points: d x any.
-  double distance_bound(const Eigen::MatrixXd& points) {
-    if (!foot(points.rowwise().mean())) return std::numeric_limits<double>::infinity();
-    const Eigen::MatrixXd local =
-        Rows(frame_.data(), d_, d_) * (points.colwise() - Eigen::Map<const Eigen::VectorXd>(point_.data(), d_));
-    const double tangential = local.topRows(n_).colwise().squaredNorm().maxCoeff();
-    const double normal = local.bottomRows(d_ - n_).colwise().squaredNorm().maxCoeff();
-    if (!(tangential < radius_ * radius_)) return std::numeric_limits<double>::infinity();
-    const double errors = 2 * errors_.point + 2 * errors_.angle * std::sqrt(tangential + normal);
-    const double bound =
-        std::sqrt(normal) + tangential / (radius_ + std::sqrt(radius_ * radius_ - tangential)) + errors;
-    return bound * (1 + 1e-12);
+  std::optional<double> distance_bound(const Eigen::MatrixXd& points) {
+    const std::span<const double> all(points.data(), static_cast<std::size_t>(points.size()));
+    for (Eigen::Index from = -1; from < points.cols(); ++from) {
+      const Eigen::VectorXd x = from < 0 ? Eigen::VectorXd(points.rowwise().mean()) : Eigen::VectorXd(points.col(from));
+      if (!foot(x)) continue;
+      if (const auto bound = distance_from_manifold(all, d_, n_, {point_.data(), frame_.data(), errors_}, bending_))
+        return bound;
+    }
+    return std::nullopt;
   }
 
  private:
@@ -75,7 +74,7 @@ class Placer {
 
   const Submanifold& manifold_;
   int d_, n_;
-  double radius_;
+  Bending bending_;
   std::vector<double> point_, frame_;
   FootErrors errors_;
 };
@@ -104,16 +103,20 @@ Incidence corners_of(const CellComplex& complex) {
 
 PlacedComplex place_on_manifold(CellComplex complex, const coxeter::Triangulation& triangulation,
                                 const perturbation::DisplacementMap& displacements, const Submanifold& manifold,
-                                const Bending& bending) {
+                                const Bending& bending, const std::function<bool()>& keep_going) {
   const int d = complex.ambient_dim, k = d - complex.intrinsic_dim;
   if (manifold.ambient_dim() != d || manifold.codim() != k || triangulation.ambient_dim() != d ||
       displacements.ambient_dim() != d)
     throw InvalidInput("place_on_manifold: the arguments have different dimensions");
   if (!(bending.reach > 0)) throw InvalidInput("place_on_manifold: reach must be positive");
   PlacedComplex result;
+  const auto go_on = [&](std::size_t i) {
+    if (i % 64 == 63 && keep_going && !keep_going()) result.complete = false;
+    return result.complete;
+  };
   Placer placer(manifold, bending);
   Eigen::MatrixXd corners(d, k + 1);
-  for (std::size_t i = 0; i < complex.num_cells(0); ++i) {
+  for (std::size_t i = 0; i < complex.num_cells(0) && go_on(i); ++i) {
     const coxeter::Simplex simplex = complex.simplex(0, i);
     for (int q = 0; q <= k; ++q)
       corners.col(q) = perturbation::position(triangulation, displacements, simplex.vertex(q));
@@ -127,12 +130,15 @@ PlacedComplex place_on_manifold(CellComplex complex, const coxeter::Triangulatio
   }
   const Incidence cells = corners_of(complex);
   Eigen::MatrixXd points;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
+  std::optional<double> largest = 0;
+  for (std::size_t i = 0; i < cells.size() && largest && go_on(i); ++i) {
     points.resize(d, static_cast<Eigen::Index>(cells[i].size()));
     for (Eigen::Index q = 0; q < points.cols(); ++q)
       points.col(q) = Eigen::Map<const Eigen::VectorXd>(&complex.points[std::size_t{cells[i][q]} * d], d);
-    result.distance_bound = std::max(result.distance_bound, placer.distance_bound(points));
+    const std::optional<double> bound = placer.distance_bound(points);
+    largest = bound ? std::optional(std::max(*largest, *bound)) : std::nullopt;
   }
+  if (result.complete) result.distance_bound = largest;
   result.complex = std::move(complex);
   return result;
 }

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 
 #include <coxeter/tables/lattice_order.h>
 #include <whitney/cells/crossed_simplices.h>
+#include <whitney/construction/distance_bound.h>
 
 namespace whitney {
 namespace {
@@ -31,43 +31,22 @@ void write_parts(const PerturbedTriangulation& near, std::uint32_t s, const std:
   }
 }
 
-/// How far the hull of the points may be from M as the best foot of simplex s sees it; see WhitneyComplex.
-double distance_bound(PerturbedTriangulation& near, std::uint32_t s, std::span<const std::uint32_t> cells,
-                      const std::vector<double>& points) {
-  const int d = near.ambient_dim(), n = d - near.codim();
-  const double radius = near.oracle().curvature_radius();
-  perturbation::FootView foot{};
-  const std::uint16_t candidate = near.evaluate(s, 0).candidate;
-  if (candidate == perturbation::Evaluation::kNoFoot || !near.foot(s, candidate, foot))
-    return std::numeric_limits<double>::infinity();
-  double tangential = 0, normal = 0;
-  for (const std::uint32_t cell : cells) {
-    double along = 0, off = 0;
-    for (int row = 0; row < d; ++row) {
-      double sum = 0;
-      for (int c = 0; c < d; ++c) sum += foot.frame[row * d + c] * (points[std::size_t{cell} * d + c] - foot.point[c]);
-      (row < n ? along : off) += sum * sum;
-    }
-    tangential = std::max(tangential, along);
-    normal = std::max(normal, off);
-  }
-  if (!(tangential < radius * radius)) return std::numeric_limits<double>::infinity();
-  const double errors = 2 * foot.errors.point + 2 * foot.errors.angle * std::sqrt(tangential + normal);
-  return std::sqrt(normal) + tangential / (radius + std::sqrt(radius * radius - tangential)) + errors;
-}
+/// The vertices of a trace: in lexicographic order, and the place of each in it.
+struct TraceVertices {
+  std::vector<std::int32_t> coordinates;  ///< num x d
+  std::vector<std::uint32_t> rank;        ///< by their number in the perturbed triangulation
+  std::size_t num = 0;
+};
 
-}  // namespace
-
-WhitneyComplex whitney_complex(PerturbedTriangulation& near, const HitWalk& trace, bool whole) {
-  const int d = near.ambient_dim(), k = near.codim();
-  const VertexSubsets& faces = near.certificate().hit_candidates();
-
-  // The vertices of the trace, in lexicographic order.
-  std::vector<std::uint32_t> rank(near.num_vertices(), 0), used;
+TraceVertices vertices_of(const PerturbedTriangulation& near, const HitWalk& trace) {
+  const int d = near.ambient_dim();
+  TraceVertices vertices;
+  vertices.rank.resize(near.num_vertices(), 0);
+  std::vector<std::uint32_t> used;
   for (const std::uint32_t s : trace.simplices)
     for (int q = 0; q <= d; ++q)
-      if (const std::uint32_t v = near.corners(s)[q]; !rank[v]) {
-        rank[v] = 1;
+      if (const std::uint32_t v = near.corners(s)[q]; !vertices.rank[v]) {
+        vertices.rank[v] = 1;
         used.push_back(v);
       }
   std::vector<std::int32_t> coordinates;
@@ -76,82 +55,170 @@ WhitneyComplex whitney_complex(PerturbedTriangulation& near, const HitWalk& trac
     coordinates.insert(coordinates.end(), z.begin(), z.end());
   }
   const std::vector<std::uint32_t> order = lexicographic_order(coordinates, d);
-  std::vector<std::int32_t> sorted;
   for (std::uint32_t i = 0; i < order.size(); ++i) {
     const auto z = near.lattice_vertex(used[order[i]]);
-    sorted.insert(sorted.end(), z.begin(), z.end());
-    rank[used[order[i]]] = i;
+    vertices.coordinates.insert(vertices.coordinates.end(), z.begin(), z.end());
+    vertices.rank[used[order[i]]] = i;
   }
+  vertices.num = used.size();
+  return vertices;
+}
 
-  // The hit k-faces as permutahedral simplices, each once, with the point of the first simplex that has it.
-  WhitneyComplex result;
-  coxeter::SimplexTable<std::uint8_t> table(d, 0);
-  std::vector<double> points;
-  std::vector<std::uint64_t> key(table.key_words());
-  Incidence cells;  // of every simplex of the trace
-  for (const std::uint32_t s : trace.simplices) {
+/// The hit k-faces as permutahedral simplices, each once, with the point of the first simplex that has it.
+class HitFaces {
+ public:
+  HitFaces(PerturbedTriangulation& near, const TraceVertices& vertices)
+      : near_(near),
+        vertices_(vertices),
+        faces_(near.certificate().hit_candidates()),
+        table_(near.ambient_dim(), 0),
+        key_(table_.key_words()) {}
+
+  /// Adds those of one d-simplex, as its best foot sees them: a row of `cells()`. False when there is no foot for that.
+  bool add(std::uint32_t s) {
     Margins margins;
-    if (near.evaluate_at(s, near.evaluate(s, 0).candidate, margins) && margins.single_sheet) {
-      for (std::size_t f = 0; f < faces.num(); ++f) {
-        if (!near.certificate().face_is_hit(f)) continue;
-        std::fill(key.begin(), key.end(), 0);
-        table.set_base(key.data(), rank[near.corners(s)[faces[f][0]]]);
-        write_parts(near, s, faces[f], table.parts_of(key.data()));
-        std::uint64_t hash = 0;
-        for (const std::uint64_t word : key) hash = coxeter::mix64(hash + word * 0x9e3779b97f4a7c15ull);
-        const std::uint32_t cell = table.intern(key.data(), hash);
-        cells.index.push_back(cell);
-        if (std::size_t{cell} * d < points.size()) continue;
-        points.resize(points.size() + d, 0.0);
-        const double* lambda = near.certificate().hit_coordinates(f);
-        for (int j = 0; j <= k; ++j) {
-          const double* v = near.position(near.corners(s)[faces[f][j]]);
-          for (int c = 0; c < d; ++c) points[std::size_t{cell} * d + c] += lambda[j] * v[c];
-        }
-      }
-    } else {
-      result.distance_bound = std::numeric_limits<double>::infinity();
-    }
-    cells.offset.push_back(static_cast<std::uint32_t>(cells.index.size()));
+    const bool is_seen = near_.evaluate_at(s, near_.evaluate(s, 0).candidate, margins) && margins.single_sheet;
+    for (std::size_t f = 0; is_seen && f < faces_.num(); ++f)
+      if (near_.certificate().face_is_hit(f)) add_face(s, f);
+    cells_.offset.push_back(static_cast<std::uint32_t>(cells_.index.size()));
+    return is_seen;
   }
-  for (std::size_t i = 0; i < trace.simplices.size(); ++i)
-    result.distance_bound =
-        std::max(result.distance_bound, distance_bound(near, trace.simplices[i], cells[i], points) * (1 + 1e-12));
 
-  const auto count = static_cast<std::uint32_t>(table.size());
+  const Incidence& cells() const { return cells_; }  ///< of every simplex added
+  const coxeter::SimplexTable<std::uint8_t>& table() const { return table_; }
+  const std::vector<double>& points() const { return points_; }
+
+ private:
+  void add_face(std::uint32_t s, std::size_t f) {
+    const int d = near_.ambient_dim(), k = near_.codim();
+    std::fill(key_.begin(), key_.end(), 0);
+    table_.set_base(key_.data(), vertices_.rank[near_.corners(s)[faces_[f][0]]]);
+    write_parts(near_, s, faces_[f], table_.parts_of(key_.data()));
+    std::uint64_t hash = 0;
+    for (const std::uint64_t word : key_) hash = coxeter::mix64(hash + word * 0x9e3779b97f4a7c15ull);
+    const std::uint32_t cell = table_.intern(key_.data(), hash);
+    cells_.index.push_back(cell);
+    if (std::size_t{cell} * d < points_.size()) return;
+    points_.resize(points_.size() + d, 0.0);
+    const double* lambda = near_.certificate().hit_coordinates(f);
+    for (int j = 0; j <= k; ++j) {
+      const double* v = near_.position(near_.corners(s)[faces_[f][j]]);
+      for (int c = 0; c < d; ++c) points_[std::size_t{cell} * d + c] += lambda[j] * v[c];
+    }
+  }
+
+  PerturbedTriangulation& near_;
+  const TraceVertices& vertices_;
+  const VertexSubsets& faces_;
+  coxeter::SimplexTable<std::uint8_t> table_;
+  std::vector<std::uint64_t> key_;
+  std::vector<double> points_;
+  Incidence cells_;
+};
+
+/// See WhitneyComplex::distance_bound, for one simplex and its 0-cells.
+std::optional<double> distance_bound(PerturbedTriangulation& near, std::uint32_t s, const HitFaces& hit,
+                                     std::span<const std::uint32_t> cells) {
+  const int d = near.ambient_dim();
+  const Bending bending{near.oracle().reach(), near.oracle().curvature_radius(), {}};
+  std::vector<double> points;
+  for (const std::uint32_t cell : cells)
+    points.insert(points.end(), &hit.points()[std::size_t{cell} * d], &hit.points()[std::size_t{cell} * d] + d);
+  const auto seen_from = [&](std::uint16_t candidate) -> std::optional<double> {
+    perturbation::FootView foot{};
+    if (candidate == perturbation::Evaluation::kNoFoot || !near.foot(s, candidate, foot)) return std::nullopt;
+    return distance_from_manifold(points, d, d - near.codim(), foot, bending);
+  };
+  std::optional<double> bound = seen_from(near.evaluate(s, 0).candidate);
+  const auto num_feet = static_cast<std::uint16_t>(d + 2 + d * (d + 1) / 2);
+  for (std::uint16_t candidate = 0; !bound && candidate < num_feet; ++candidate) bound = seen_from(candidate);
+  return bound;
+}
+
+/// The largest of them.
+std::optional<double> distance_bound(PerturbedTriangulation& near, const HitWalk& trace, const HitFaces& hit) {
+  double largest = 0;
+  for (std::size_t i = 0; i < trace.simplices.size(); ++i) {
+    const std::optional<double> bound = distance_bound(near, trace.simplices[i], hit, hit.cells()[i]);
+    if (!bound) return std::nullopt;
+    largest = std::max(largest, *bound);
+  }
+  return largest;
+}
+
+/// Whether M goes on across a facet that the region of the trace ends at.
+bool is_cut(PerturbedTriangulation& near, const HitWalk& trace) {
+  if (!trace.region) return false;
+  for (const std::uint32_t s : trace.simplices) {
+    const std::uint32_t hit = near.evaluate(s, 0).hit_facets;
+    for (int q = 0; q <= near.ambient_dim(); ++q)
+      if ((hit >> q & 1) && !trace.region(near, near.neighbour(s, q))) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+WhitneyComplex whitney_complex(PerturbedTriangulation& near, const HitWalk& trace, bool whole,
+                               const std::function<bool()>& keep_going) {
+  const int d = near.ambient_dim();
+  const TraceVertices vertices = vertices_of(near, trace);
+  HitFaces hit(near, vertices);
+  WhitneyComplex result;
+  bool all_seen = true, complete = true;
+  for (std::size_t i = 0; i < trace.simplices.size() && complete; ++i) {
+    all_seen = hit.add(trace.simplices[i]) && all_seen;
+    complete = i % 64 != 63 || !keep_going || keep_going();
+  }
+  if (all_seen && complete) result.distance_bound = distance_bound(near, trace, hit);
+
+  const auto count = static_cast<std::uint32_t>(hit.table().size());
   const std::vector<std::uint32_t> canonical = canonical_order(
-      used.size(), count, d, [&](std::uint32_t i) { return table.base(i); },
-      [&](std::uint32_t i) { return table.parts(i); });
+      vertices.num, count, d, [&](std::uint32_t i) { return hit.table().base(i); },
+      [&](std::uint32_t i) { return hit.table().parts(i); });
   std::vector<std::uint32_t> base;
   std::vector<std::uint8_t> parts;
-  std::vector<double> sorted_points;
+  std::vector<double> points;
   for (const std::uint32_t i : canonical) {
-    base.push_back(table.base(i));
-    parts.insert(parts.end(), table.parts(i), table.parts(i) + d);
-    sorted_points.insert(sorted_points.end(), &points[std::size_t{i} * d], &points[std::size_t{i} * d] + d);
+    base.push_back(hit.table().base(i));
+    parts.insert(parts.end(), hit.table().parts(i), hit.table().parts(i) + d);
+    const double* point = &hit.points()[std::size_t{i} * d];
+    points.insert(points.end(), point, point + d);
   }
   CrossedSimplices crossed;
   crossed.ambient_dim = d;
-  crossed.codim = k;
-  crossed.vertex_coordinates = sorted;
+  crossed.codim = near.codim();
+  crossed.vertex_coordinates = vertices.coordinates;
   crossed.base = base;
   crossed.parts = parts;
-  crossed.points = sorted_points;
-  crossed.whole = whole;
+  crossed.points = points;
+  result.cut = is_cut(near, trace);
+  crossed.whole = whole && complete && !result.cut;
   // Cells of simplices that the trace did not enter may have all their 0-cells in it.
   std::set<coxeter::Simplex> entered;
   if (trace.region) {
-    for (const std::uint32_t s : trace.simplices) {
-      entered.insert(near.simplex(s));
-      const std::uint32_t hit = near.evaluate(s, 0).hit_facets;
-      for (int q = 0; q <= d && !result.cut; ++q)
-        result.cut = (hit >> q & 1) && !trace.region(near, near.neighbour(s, q));
-    }
+    for (const std::uint32_t s : trace.simplices) entered.insert(near.simplex(s));
     crossed.keep_top = [&](const coxeter::Simplex& simplex) { return entered.contains(simplex); };
-    crossed.whole = whole && !result.cut;
   }
   result.complex = cell_complex(crossed);
   return result;
+}
+
+std::uint64_t whitney_complex_bytes(int ambient_dim, int codim, std::size_t num_simplices) {
+  // faces[m] = (m-1)! S(d+1, m), by S(i+1, m) = m S(i, m) + S(i, m-1).
+  std::vector<double> faces(ambient_dim + 2, 0.0);
+  faces[0] = 1;
+  for (int i = 0; i <= ambient_dim; ++i) {
+    for (int m = i + 1; m >= 1; --m) faces[m] = m * faces[m] + faces[m - 1];
+    faces[0] = 0;
+  }
+  double factorial = 1, bytes = 0;
+  for (int m = 1; m <= ambient_dim + 1; ++m) {
+    if (m > 2) factorial *= m - 1;
+    // Its base, parts and facets, in the table, sorted, and in the complex.
+    if (m > codim) bytes += 3 * factorial * faces[m] * (4 + 2 * ambient_dim + 4 * m);
+  }
+  return static_cast<std::uint64_t>(std::min(1e18, bytes / factorial * static_cast<double>(num_simplices)));
 }
 
 }  // namespace whitney

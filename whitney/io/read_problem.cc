@@ -9,7 +9,6 @@
 #include <vector>
 
 #include <whitney/functions/expression.h>
-#include <whitney/functions/zero_sets.h>
 #include <whitney/io/formats/problem_entry.h>
 #include <whitney/io/formats/read_atlas.h>
 #include <whitney/io/read_file.h>
@@ -50,10 +49,6 @@ TriangulationSpec read_triangulation(const Entry& entry, std::size_t d) {
   return spec;
 }
 
-bool contains(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
 /// Equations, closest point, or both: what is known under this name.
 void read_named(const Entry& entry, Problem& problem) {
   std::map<std::string, double> parameters;
@@ -62,22 +57,12 @@ void read_named(const Entry& entry, Problem& problem) {
   }
   const std::string name = entry.at("name").string();
   entry.located([&] {
-    const bool has_foot = contains(submanifold_names(), name), has_equations = contains(manifold_names(), name);
-    if (!has_foot && !has_equations) {
-      try {
-        named_manifold(name, parameters);  // says what it waits for, or that nobody knows it
-      } catch (const InvalidInput& error) {
-        std::string list;
-        for (const std::string& known : submanifold_names()) list += (list.empty() ? "" : ", ") + known;
-        throw InvalidInput(std::string(error.what()) + "; for `whitney triangulate`: " + list);
-      }
+    KnownManifold known = known_manifold(name, parameters);
+    if (known.function) {
+      problem.function = std::move(known.function);
+      problem.box = std::move(known.box);
     }
-    if (has_equations) {
-      NamedManifold manifold = named_manifold(name, parameters);
-      problem.function = std::move(manifold.function);
-      problem.box = std::move(manifold.box);
-    }
-    if (has_foot) problem.submanifold = named_submanifold(name, parameters);
+    problem.submanifold = std::move(known.submanifold);
   });
 }
 

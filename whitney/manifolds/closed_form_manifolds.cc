@@ -68,6 +68,7 @@ class Sphere : public Submanifold::Model {
   }
   FootPromise promise() const override { return kPromise; }
   std::optional<Bending> bending() const override { return Bending{radius_, radius_, Bending::Source::kProven}; }
+  bool is_connected() const override { return true; }
   std::vector<double> seed_points() const override {
     std::vector<double> seed(d_, 0.0);
     seed[0] = radius_;
@@ -107,6 +108,7 @@ class TorusOfRevolution : public Submanifold::Model {
     const double reach = std::min(r_, std::nextafter(R_ - r_, 0.0));
     return Bending{reach, reach, Bending::Source::kProven};
   }
+  bool is_connected() const override { return true; }
   std::vector<double> seed_points() const override { return {R_ + r_, 0, 0}; }
 
  private:
@@ -145,6 +147,7 @@ class FlatTorus : public Submanifold::Model {
     const double reach = std::min(radius_[0], radius_[1]);
     return Bending{reach, reach, Bending::Source::kProven};
   }
+  bool is_connected() const override { return true; }
   std::vector<double> seed_points() const override {
     std::vector<double> seed(d_, 0.0);
     seed[0] = radius_[0];

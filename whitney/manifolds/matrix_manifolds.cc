@@ -113,6 +113,7 @@ class Grassmann : public Submanifold::Model {
     const double reach = std::nextafter(std::sqrt(0.5), 0.0);
     return Bending{reach, reach, Bending::Source::kProven};
   }
+  bool is_connected() const override { return true; }
   std::vector<double> seed_points() const override {
     Eigen::MatrixXd A = Eigen::MatrixXd::Zero(q_, q_);
     for (int i = 0; i < p_; ++i) A(i, i) = 1;
@@ -181,6 +182,7 @@ class OrthonormalColumns : public Submanifold::Model {
     const double reach = p_ == q_ ? std::nextafter(std::sqrt(2.0), 0.0) : 1;
     return Bending{reach, reach, Bending::Source::kProven};
   }
+  bool is_connected() const override { return true; }
   std::vector<double> seed_points() const override {
     std::vector<double> seed(p_ * q_, 0.0);
     for (int i = 0; i < p_; ++i) seed[i * q_ + i] = 1;

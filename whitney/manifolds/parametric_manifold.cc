@@ -125,6 +125,8 @@ class ParametricModel : public Submanifold::Model, public std::enable_shared_fro
     std::call_once(bending_once_, [&] { bending_ = estimate_bending(Submanifold(shared_from_this())).bending; });
     return bending_;
   }
+  /// The image of a box.
+  bool is_connected() const override { return true; }
   std::vector<double> seed_points() const override {
     const auto point = tree_->point(0);
     return {point.begin(), point.end()};

@@ -23,6 +23,7 @@ class WithBending : public Submanifold::Model {
   FootPromise promise() const override { return manifold_.promise(); }
   std::optional<Bending> bending() const override { return bending_; }
   std::vector<double> seed_points() const override { return manifold_.seed_points(); }
+  bool is_connected() const override { return manifold_.is_connected(); }
 
  private:
   Submanifold manifold_;

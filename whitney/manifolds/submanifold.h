@@ -52,6 +52,8 @@ class Submanifold {
     /// m x d: points on M (or near it: they are projected), one at least in every connected component, as far as the
     /// model knows.
     virtual std::vector<double> seed_points() const = 0;
+    /// M is connected by its definition, so that one seed point stands for all of it.
+    virtual bool is_connected() const { return false; }
   };
 
   explicit Submanifold(std::shared_ptr<const Model> model) : model_(std::move(model)) {}
@@ -66,6 +68,7 @@ class Submanifold {
   FootPromise promise() const { return model_->promise(); }
   std::optional<Bending> bending() const { return model_->bending(); }
   std::vector<double> seed_points() const { return model_->seed_points(); }
+  bool is_connected() const { return model_->is_connected(); }
 
  private:
   std::shared_ptr<const Model> model_;

@@ -74,6 +74,7 @@ class MovedModel : public Submanifold::Model {
     }
     return bending;
   }
+  bool is_connected() const override { return M_.is_connected(); }
   std::vector<double> seed_points() const override {
     const std::size_t d = ambient_dim();
     const std::vector<double> seeds = M_.seed_points();
@@ -176,6 +177,7 @@ class ProductModel : public Submanifold::Model {
     return Bending{std::min(a->reach, b->reach), std::min(a->curvature_radius, b->curvature_radius),
                    std::max(a->source, b->source)};
   }
+  bool is_connected() const override { return M_.is_connected() && N_.is_connected(); }
   std::vector<double> seed_points() const override {
     const std::size_t d = M_.ambient_dim(), e = N_.ambient_dim();
     const std::vector<double> a = M_.seed_points(), b = N_.seed_points();
@@ -213,6 +215,7 @@ class EmbeddedModel : public Submanifold::Model {
   }
   FootPromise promise() const override { return M_.promise(); }
   std::optional<Bending> bending() const override { return M_.bending(); }
+  bool is_connected() const override { return M_.is_connected(); }
   std::vector<double> seed_points() const override {
     const std::size_t d = M_.ambient_dim(), e = ambient_dim_;
     const std::vector<double> seeds = M_.seed_points();

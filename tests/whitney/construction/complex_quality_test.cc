@@ -61,7 +61,7 @@ TEST(ComplexQuality, OfWhitneysComplex) {
     EXPECT_GT(q.thickness_min, 0);
     EXPECT_LE(q.thickness_min, q.thickness_median);
     EXPECT_LE(q.longest_edge, edge_length * 2);
-    EXPECT_LE(q.vertex_distance_max, c.result.hausdorff_bound);
+    EXPECT_LE(q.vertex_distance_max, *c.result.hausdorff_bound);
     // The typical angle falls with the edge length.
     EXPECT_LT(q.angle_median, 0.7 * previous);
     previous = q.angle_median;

@@ -20,7 +20,7 @@ constexpr double kPi = std::numbers::pi;
 using Status = Preimage::Status;
 
 Correspondence correspondence_of(const WhitneyCase& c) {
-  return Correspondence(barycentric_subdivision(c.result.complex), c.manifold, c.result.hausdorff_bound);
+  return Correspondence(barycentric_subdivision(c.result.complex), c.manifold, *c.result.hausdorff_bound);
 }
 
 double distance(std::span<const double> a, std::span<const double> b) {
@@ -77,7 +77,7 @@ TEST(Correspondence, RoundTrips) {
       ASSERT_EQ(preimage.status, Status::kFound);
       EXPECT_LT(distance(preimage.point, x), 1e-9);
       EXPECT_NEAR(preimage.distance, distance(x, y), 1e-9);
-      EXPECT_LE(preimage.distance, c.result.hausdorff_bound);
+      EXPECT_LE(preimage.distance, *c.result.hausdorff_bound);
       // M -> K -> M, from a point of M that has nothing to do with K.
       std::vector<double> z = x;
       for (double& a : z) a += 0.3 * c.manifold.bending()->reach * normal(rng);

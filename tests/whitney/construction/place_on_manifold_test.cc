@@ -43,7 +43,7 @@ TEST(PlaceOnManifold, PointsAreOnMAndInTheirSimplices) {
     const CellComplex& complex = placed.complex;
     EXPECT_EQ(placed.kept, 0u);
     EXPECT_EQ(placed.placed, complex.num_cells(0));
-    EXPECT_LT(placed.distance_bound, 1.5 * c.result.hausdorff_bound);
+    EXPECT_LT(*placed.distance_bound, 1.5 * *c.result.hausdorff_bound);
     const int d = complex.ambient_dim;
     std::vector<double> point(d), frame(static_cast<std::size_t>(d) * d);
     FootErrors errors;
@@ -54,7 +54,7 @@ TEST(PlaceOnManifold, PointsAreOnMAndInTheirSimplices) {
       ASSERT_TRUE(c.manifold.project(x, point, frame, errors));
       double squares = 0;
       for (int a = 0; a < d; ++a) squares += (x[a] - point[a]) * (x[a] - point[a]);
-      EXPECT_LT(std::sqrt(squares), v < complex.num_cells(0) ? 1e-12 : placed.distance_bound);
+      EXPECT_LT(std::sqrt(squares), v < complex.num_cells(0) ? 1e-12 : *placed.distance_bound);
     }
     // The vertices of K still lie inside their simplices: the ambient mesh is positive.
     if (d <= 4) {
@@ -62,7 +62,7 @@ TEST(PlaceOnManifold, PointsAreOnMAndInTheirSimplices) {
       EXPECT_EQ(ambient.not_positive, 0u);
       EXPECT_TRUE(is_subcomplex(mesh, ambient.mesh));
     }
-    EXPECT_TRUE(check_correspondence(Correspondence(mesh, c.manifold, placed.distance_bound), bending).homeomorphism);
+    EXPECT_TRUE(check_correspondence(Correspondence(mesh, c.manifold, *placed.distance_bound), bending).homeomorphism);
     EXPECT_LT(complex_quality(mesh, c.manifold).angle_max, 0.5 * complex_quality(before, c.manifold).angle_max);
   }
 }
@@ -76,7 +76,7 @@ TEST(PlaceOnManifold, UnfoldsTheProjection) {
       place_on_manifold(c.result.complex, c.triangulation, c.result.displacements, c.manifold, bending);
   const SimplicialMesh mesh = barycentric_subdivision(placed.complex);
   const CorrespondenceCheck after =
-      check_correspondence(Correspondence(mesh, c.manifold, placed.distance_bound), bending);
+      check_correspondence(Correspondence(mesh, c.manifold, *placed.distance_bound), bending);
   EXPECT_TRUE(after.homeomorphism) << after.reason;
   EXPECT_LT(after.angle_max, 10 * std::numbers::pi / 180);
   // The volume inside comes closer too: all 0-cells are on the sphere, so the solid is smaller than the ball, barely.
@@ -94,7 +94,7 @@ TEST(PlaceOnManifold, KeepsWhatItCannotPlace) {
       place_on_manifold(c.result.complex, c.triangulation, c.result.displacements, large, *large.bending());
   EXPECT_EQ(placed.placed, 0u);
   EXPECT_EQ(placed.complex.points, c.result.complex.points);
-  EXPECT_GT(placed.distance_bound, 1.9);
+  EXPECT_GT(*placed.distance_bound, 1.9);
   EXPECT_THROW(place_on_manifold(c.result.complex, c.triangulation, c.result.displacements,
                                  named_submanifold("flat_torus"), *large.bending()),
                InvalidInput);
