@@ -7,6 +7,7 @@
 
 #include <Eigen/LU>
 
+#include <coxeter/base/eigen_view.h>
 #include <coxeter/base/error.h>
 #include <coxeter/triangulation.h>
 
@@ -61,7 +62,7 @@ Quality freudenthal_quality(int ambient_dim, double edge_length) {
 
 double simplex_width(const Triangulation& triangulation) {
   const int d = triangulation.ambient_dim();
-  const Eigen::MatrixXd gram = triangulation.linear().transpose() * triangulation.linear();
+  const Eigen::MatrixXd gram = as_eigen(triangulation.linear()).transpose() * as_eigen(triangulation.linear());
   const double diagonal = gram(0, 0), other = d > 1 ? gram(0, 1) : 0;
   bool symmetric = true;
   for (int i = 0; i < d; ++i)
@@ -79,7 +80,7 @@ double simplex_width(const Triangulation& triangulation) {
     if (d > 12)
       throw InvalidInput("simplex_width: ambient dimension " + std::to_string(d) +
                          " is above 12, and the triangulation is not similar to a Coxeter or Freudenthal one");
-    const Eigen::MatrixXd gradients = triangulation.linear().inverse().transpose();
+    const Eigen::MatrixXd gradients = as_eigen(triangulation.linear()).inverse().transpose();
     Eigen::VectorXi g = Eigen::VectorXi::Constant(d, -1);
     for (;;) {
       if (std::abs(g.sum()) <= 1) largest = std::max(largest, (gradients * g.cast<double>()).squaredNorm());
