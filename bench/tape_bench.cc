@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include <coxeter/placement.h>
 #include <whitney/functions/expression.h>
 #include <whitney/functions/zero_sets.h>
 #include <whitney/io/read_problem.h>
@@ -82,7 +83,7 @@ void rotated_torus(const double* x, double* v) {
 }
 
 whitney::Function parsed_rotated_torus() {
-  const Eigen::MatrixXd Q = whitney::random_rotation(kTorusDim, 7);
+  const whitney::Matrix Q = whitney::coxeter::random_rotation(kTorusDim, 7);
   std::vector<std::string> variables, y;
   for (int i = 0; i < kTorusDim; ++i) variables.emplace_back("x").append(std::to_string(i + 1));
   for (int j = 0; j < kTorusDim; ++j) {

@@ -23,6 +23,7 @@
 
 #include <Eigen/Dense>
 
+#include <coxeter/base/eigen_view.h>
 #include <coxeter/triangulation.h>
 #include <whitney/cells/cell_complex.h>
 #include <whitney/cells/subdivide.h>
@@ -128,7 +129,7 @@ struct PeerFunction {
 std::size_t run_peer(const Manifold& manifold, const whitney::coxeter::Triangulation& triangulation, double& seconds,
                      std::size_t& evaluations) {
   PeerTriangulation theirs(manifold.ambient_dim());
-  theirs.change_matrix(triangulation.linear());
+  theirs.change_matrix(whitney::as_eigen(triangulation.linear()));
   const PeerFunction f{&manifold, &evaluations};
   const auto oracle = peer::make_oracle(f);
   for (int i = 0; i < 50; ++i) {

@@ -6,13 +6,9 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/whitney-toolkit)
 
 # One component, so that a test can install it before the program is built.
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME development)
-install(TARGETS whitney_coxeter whitney_perturbation whitney_whitney EXPORT whitney-toolkit-targets)
+install(TARGETS whitney_coxeter whitney_perturbation whitney_whitney EXPORT whitney-toolkit-targets
+  FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/whitney-toolkit)
 install(EXPORT whitney-toolkit-targets NAMESPACE whitney:: DESTINATION ${package_dir})
-foreach(module coxeter perturbation whitney)
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/${module}
-    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/whitney-toolkit
-    FILES_MATCHING PATTERN "*.h" PATTERN "cli" EXCLUDE PATTERN "formats" EXCLUDE)
-endforeach()
 
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/whitney-toolkit-config.cmake.in
   ${PROJECT_BINARY_DIR}/whitney-toolkit-config.cmake INSTALL_DESTINATION ${package_dir})

@@ -60,9 +60,9 @@ Simplex locate_in_lattice(std::span<const double> z, bool full) {
 Simplex locate_in(const Triangulation& triangulation, std::span<const double> x, bool full) {
   for (const double coordinate : x)
     if (!std::isfinite(coordinate)) throw InvalidInput("x must have finite entries");
-  const Eigen::VectorXd z = triangulation.lattice_coordinates(x);
-  if (!z.allFinite()) throw LatticeOverflow("x is too far away from the origin of the lattice");
-  return locate_in_lattice({z.data(), static_cast<std::size_t>(z.size())}, full);
+  const std::vector<double> z = triangulation.lattice_coordinates(x);
+  if (!all_finite(z)) throw LatticeOverflow("x is too far away from the origin of the lattice");
+  return locate_in_lattice(z, full);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include <Eigen/LU>
 
+#include <coxeter/base/eigen_view.h>
 #include <coxeter/base/error.h>
 #include <coxeter/triangulation.h>
 
@@ -134,7 +135,8 @@ Quality freudenthal_quality(int ambient_dim, double edge_length) {
 
 double simplex_width(const Triangulation& triangulation) {
   const int d = triangulation.ambient_dim();
-  const Eigen::MatrixXd gram = triangulation.linear().transpose() * triangulation.linear();
+  const Eigen::MatrixXd linear = as_eigen(triangulation.linear());
+  const Eigen::MatrixXd gram = linear.transpose() * linear;
   const double diagonal = gram(0, 0), other = d > 1 ? gram(0, 1) : 0;
   double departure = 0;
   for (int i = 0; i < d; ++i)
@@ -151,8 +153,8 @@ double simplex_width(const Triangulation& triangulation) {
     if (proven >= usual) return usual;
     bound = std::max(0.0, proven);
   }
-  const double other_bound = d <= kMostEnumerated ? enumerated_width_below(triangulation.linear())
-                                                  : width_below_by_norm(triangulation.linear());
+  const double other_bound = d <= kMostEnumerated ? enumerated_width_below(linear)
+                                                  : width_below_by_norm(linear);
   return std::max(bound, other_bound);
 }
 

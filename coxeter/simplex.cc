@@ -167,15 +167,17 @@ std::uint64_t Simplex::hash() const {
   return detail::hash_step(state, 0);
 }
 
-Eigen::VectorXd barycentre(const Simplex& simplex, const Triangulation& triangulation) {
+std::vector<double> barycentre(const Simplex& simplex, const Triangulation& triangulation) {
   const int d = simplex.ambient_dim(), m = simplex.dim();
   if (d != triangulation.ambient_dim())
     throw InvalidInput("simplex and triangulation must have the same ambient dimension");
-  Eigen::VectorXd z(d);
+  std::vector<double> z(static_cast<std::size_t>(d));
   for (int q = 0; q <= m; ++q)
     for (const auto c : simplex.partition().part(q))
       if (c < d) z[c] = simplex.base()[c] + double(m - q) / (m + 1);  // c is raised in the vertices q+1 .. m
-  return triangulation.linear() * z + triangulation.offset();
+  std::vector<double> x = multiply(triangulation.linear(), z);
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] += triangulation.offset()[i];
+  return x;
 }
 
 }  // namespace whitney::coxeter

@@ -9,8 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include <coxeter/lattice_vertex.h>
 #include <coxeter/ordered_partition.h>
 
@@ -95,7 +93,7 @@ class Simplex {
 };
 
 /// The mean of the vertices of the simplex in the triangulation; d. Throws InvalidInput when the dimensions differ.
-Eigen::VectorXd barycentre(const Simplex& simplex, const Triangulation& triangulation);
+std::vector<double> barycentre(const Simplex& simplex, const Triangulation& triangulation);
 
 }  // namespace whitney::coxeter
 

@@ -3,11 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <Eigen/LU>
+
+#include <coxeter/base/eigen_view.h>
 #include <coxeter/base/error.h>
 
 namespace whitney::coxeter {
@@ -56,25 +60,33 @@ double longest_edge(const Eigen::MatrixXd& linear) {
 
 }  // namespace
 
-Triangulation::Triangulation(Eigen::MatrixXd linear, Eigen::VectorXd offset, double edge_length)
-    : linear_(std::move(linear)), offset_(std::move(offset)), lu_(linear_), edge_length_(edge_length) {}
+struct Triangulation::Factors {
+  Eigen::PartialPivLU<Eigen::MatrixXd> lu;
+};
 
-Triangulation::Triangulation(Eigen::MatrixXd linear, Eigen::VectorXd offset)
+Triangulation::Triangulation(Matrix linear, std::vector<double> offset, double edge_length)
+    : linear_(std::move(linear)),
+      offset_(std::move(offset)),
+      factors_(new Factors{Eigen::PartialPivLU<Eigen::MatrixXd>(as_eigen(linear_))}),
+      edge_length_(edge_length) {}
+
+Triangulation::Triangulation(Matrix linear, std::vector<double> offset)
     : linear_(std::move(linear)), offset_(std::move(offset)) {
-  const Eigen::Index d = linear_.rows();
+  const std::ptrdiff_t d = linear_.rows();
   if (linear_.cols() != d) throw InvalidInput("linear must be a square matrix");
   check_dim(static_cast<int>(d));
-  if (offset_.size() != d) throw InvalidInput("offset must have as many entries as linear has rows");
-  if (!linear_.allFinite()) throw InvalidInput("linear must have finite entries");
-  if (!offset_.allFinite()) throw InvalidInput("offset must have finite entries");
-  const double scale = linear_.cwiseAbs().maxCoeff();
+  if (std::ssize(offset_) != d) throw InvalidInput("offset must have as many entries as linear has rows");
+  if (!all_finite(linear_.entries())) throw InvalidInput("linear must have finite entries");
+  if (!all_finite(offset_)) throw InvalidInput("offset must have finite entries");
+  const auto matrix = as_eigen(linear_);
+  const double scale = matrix.cwiseAbs().maxCoeff();
   if (scale == 0) throw InvalidInput("linear must be regular, is zero");
   // Unscaled, the estimate of the condition overflows for lengths near the ends of the range of double.
-  const double rcond = Eigen::PartialPivLU<Eigen::MatrixXd>(linear_ / scale).rcond();
+  const double rcond = Eigen::PartialPivLU<Eigen::MatrixXd>(matrix / scale).rcond();
   if (!(rcond > double(d) * std::numeric_limits<double>::epsilon()))
     throw InvalidInput("linear must be regular, is numerically singular");
-  lu_.compute(linear_);
-  edge_length_ = longest_edge(linear_);
+  factors_.reset(new Factors{Eigen::PartialPivLU<Eigen::MatrixXd>(matrix)});
+  edge_length_ = longest_edge(matrix);
 }
 
 void Triangulation::cartesian(std::span<const std::int32_t> z, std::span<double> x) const {
@@ -88,25 +100,27 @@ void Triangulation::cartesian(std::span<const std::int32_t> z, std::span<double>
   }
 }
 
-Eigen::VectorXd Triangulation::lattice_coordinates(std::span<const double> x) const {
+std::vector<double> Triangulation::lattice_coordinates(std::span<const double> x) const {
   if (x.size() != static_cast<std::size_t>(ambient_dim()))
     throw InvalidInput("x must have as many entries as the ambient dimension");
-  return lu_.solve(Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size())) - offset_);
+  return as_vector(factors_->lu.solve(as_eigen(x) - as_eigen(offset_)));
 }
 
-Triangulation Triangulation::transformed(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& shift) const {
-  const Eigen::Index d = ambient_dim();
+Triangulation Triangulation::transformed(const Matrix& matrix, std::span<const double> shift) const {
+  const std::ptrdiff_t d = ambient_dim();
   if (matrix.rows() != d || matrix.cols() != d) throw InvalidInput("matrix must be d x d, d the ambient dimension");
-  if (shift.size() != d) throw InvalidInput("shift must have as many entries as the ambient dimension");
-  return Triangulation(matrix * linear_, matrix * offset_ + shift);
+  if (std::ssize(shift) != d) throw InvalidInput("shift must have as many entries as the ambient dimension");
+  const Eigen::MatrixXd product = as_eigen(matrix) * as_eigen(linear_);
+  return Triangulation(product, as_vector(as_eigen(matrix) * as_eigen(offset_) + as_eigen(shift)));
 }
 
 Triangulation freudenthal(int ambient_dim, double edge_length) {
   check_dim(ambient_dim);
   check_length(edge_length);
   const double spacing = edge_length / std::sqrt(double(ambient_dim));
-  return Triangulation(Eigen::MatrixXd::Identity(ambient_dim, ambient_dim) * spacing,
-                       Eigen::VectorXd::Zero(ambient_dim), edge_length);
+  Matrix linear(ambient_dim, ambient_dim);
+  for (int i = 0; i < ambient_dim; ++i) linear(i, i) = spacing;
+  return Triangulation(std::move(linear), std::vector<double>(static_cast<std::size_t>(ambient_dim)), edge_length);
 }
 
 Triangulation coxeter_a(int ambient_dim, double edge_length) {
@@ -116,9 +130,10 @@ Triangulation coxeter_a(int ambient_dim, double edge_length) {
   const double m = (ambient_dim + 1) / 2;  // integer quotient
   const double s = edge_length / std::sqrt(m * (d + 1 - m) / (d + 1));
   const double c = (1 - 1 / std::sqrt(d + 1)) / d;
-  Eigen::MatrixXd linear = Eigen::MatrixXd::Constant(ambient_dim, ambient_dim, -s * c);
-  linear.diagonal().setConstant(s * (1 - c));
-  return Triangulation(std::move(linear), Eigen::VectorXd::Zero(ambient_dim), edge_length);
+  Matrix linear(ambient_dim, ambient_dim);
+  for (int j = 0; j < ambient_dim; ++j)
+    for (int i = 0; i < ambient_dim; ++i) linear(i, j) = i == j ? s * (1 - c) : -s * c;
+  return Triangulation(std::move(linear), std::vector<double>(static_cast<std::size_t>(ambient_dim)), edge_length);
 }
 
 }  // namespace whitney::coxeter

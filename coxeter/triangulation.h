@@ -2,10 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
+#include <vector>
 
-#include <Eigen/Core>
-#include <Eigen/LU>
+#include <coxeter/base/matrix.h>
 
 namespace whitney::coxeter {
 
@@ -20,11 +21,11 @@ class Triangulation {
   /// The image of the Freudenthal triangulation of Z^d under x = linear z + offset.
   /// linear: d x d, regular; offset: d. Throws InvalidInput on wrong sizes, values that are not finite, or a matrix
   /// that is numerically singular.
-  Triangulation(Eigen::MatrixXd linear, Eigen::VectorXd offset);
+  Triangulation(Matrix linear, std::vector<double> offset);
 
   int ambient_dim() const { return static_cast<int>(offset_.size()); }
-  const Eigen::MatrixXd& linear() const { return linear_; }
-  const Eigen::VectorXd& offset() const { return offset_; }
+  const Matrix& linear() const { return linear_; }
+  const std::vector<double>& offset() const { return offset_; }
 
   /// Longest edge of the d-simplices (a length). Every d-simplex has, up to symmetry, the same edges: the vectors
   /// Lambda e(U) over the proper subsets U of {0..d}, e_d = -(e_0 + .. + e_{d-1}).
@@ -38,21 +39,23 @@ class Triangulation {
   void cartesian(std::span<const std::int32_t> z, std::span<double> x) const;
 
   /// z = Lambda^-1 (x - b), in floating point; x: d. Throws InvalidInput on a wrong size.
-  Eigen::VectorXd lattice_coordinates(std::span<const double> x) const;
+  std::vector<double> lattice_coordinates(std::span<const double> x) const;
 
   /// The image of this triangulation under x -> matrix x + shift; matrix: d x d, regular; shift: d.
   /// Throws InvalidInput as the constructor does.
-  Triangulation transformed(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& shift) const;
+  Triangulation transformed(const Matrix& matrix, std::span<const double> shift) const;
 
   friend Triangulation freudenthal(int ambient_dim, double edge_length);
   friend Triangulation coxeter_a(int ambient_dim, double edge_length);
 
  private:
-  Triangulation(Eigen::MatrixXd linear, Eigen::VectorXd offset, double edge_length);
+  struct Factors;
 
-  Eigen::MatrixXd linear_;
-  Eigen::VectorXd offset_;
-  Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
+  Triangulation(Matrix linear, std::vector<double> offset, double edge_length);
+
+  Matrix linear_;
+  std::vector<double> offset_;
+  std::shared_ptr<const Factors> factors_;  // of linear_; never changed, so copies share them
   double edge_length_ = 0;
 };
 

@@ -80,15 +80,15 @@ std::span<const double> DisplacementMap::find(const LatticeVertex& vertex) const
   return displacement(entry->second);
 }
 
-Eigen::VectorXd position(const coxeter::Triangulation& triangulation, const DisplacementMap& displacements,
-                         const LatticeVertex& vertex) {
+std::vector<double> position(const coxeter::Triangulation& triangulation, const DisplacementMap& displacements,
+                             const LatticeVertex& vertex) {
   const int d = triangulation.ambient_dim();
   if (displacements.ambient_dim() != d)
     throw InvalidInput("triangulation and displacements must have the same ambient dimension");
-  Eigen::VectorXd x(d);
-  triangulation.cartesian(vertex, {x.data(), static_cast<std::size_t>(d)});
+  std::vector<double> x(static_cast<std::size_t>(d));
+  triangulation.cartesian(vertex, x);
   const auto u = displacements.find(vertex);
-  for (std::size_t c = 0; c < u.size(); ++c) x[static_cast<Eigen::Index>(c)] += u[c];
+  for (std::size_t c = 0; c < u.size(); ++c) x[c] += u[c];
   return x;
 }
 

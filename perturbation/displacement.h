@@ -8,8 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include <coxeter/lattice_vertex.h>
 #include <coxeter/quality.h>
 #include <coxeter/triangulation.h>
@@ -48,8 +46,8 @@ class DisplacementMap {
 };
 
 /// x(v) + u(v): the position of a vertex of T~; d. Throws InvalidInput when the dimensions differ.
-Eigen::VectorXd position(const coxeter::Triangulation& triangulation, const DisplacementMap& displacements,
-                         const coxeter::LatticeVertex& vertex);
+std::vector<double> position(const coxeter::Triangulation& triangulation, const DisplacementMap& displacements,
+                             const coxeter::LatticeVertex& vertex);
 
 /// The bound w (a length) of the embedding condition: if abs(u(v) - u(v')) < w over the edges of every simplex, then
 /// x -> x + u(x), with u interpolated linearly, is the identity plus a contraction, hence a homeomorphism, and T~ is a

@@ -17,8 +17,8 @@ namespace {
 /// a sum of d + 2 terms, accumulated in order.
 double position_rounding(const PerturbedTriangulation& near) {
   const int d = near.ambient_dim();
-  const Eigen::MatrixXd& linear = near.triangulation().linear();
-  const Eigen::VectorXd& offset = near.triangulation().offset();
+  const Matrix& linear = near.triangulation().linear();
+  const std::vector<double>& offset = near.triangulation().offset();
   double worst = 0;
   for (std::uint32_t v = 0; v < near.num_vertices(); ++v) {
     const auto z = near.lattice_vertex(v);

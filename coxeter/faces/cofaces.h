@@ -97,6 +97,8 @@ class CofaceEnumeration {
 
 }  // namespace detail
 
+inline namespace WHITNEY_INSTRUCTION_SET {
+
 /// Calls visit(const Simplex& coface) for every coface_dim-dimensional coface of the simplex, each once, in a fixed
 /// order; the simplex itself when coface_dim is its dimension. The visitor returns void, or (as bool) whether to go on;
 /// the result is false when it stopped. The coface lives in one buffer that the next call overwrites: copy what is to
@@ -118,4 +120,5 @@ bool for_each_cofacet(const Simplex& simplex, Visitor&& visit) {
   return for_each_coface(simplex, simplex.dim() + 1, visit);
 }
 
+}  // namespace WHITNEY_INSTRUCTION_SET
 }  // namespace whitney::coxeter

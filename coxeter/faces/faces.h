@@ -29,7 +29,7 @@ class FaceEnumeration {
   FaceEnumeration(const Simplex& simplex, int face_dim);
   FaceEnumeration(const FaceEnumeration&) = delete;
 
-  template <class Visitor>
+  template <class Visitor, class = InstructionSet>
   bool run(Visitor& visit) {
     for (;;) {
       const int num_dropped = num_cuts_ - face_dim_;
@@ -68,7 +68,7 @@ class FaceEnumeration {
 
   /// The edges of a turn, d <= 31: each of the two parts is the list of a set, which costs less than the tables below
   /// when every block is used once.
-  template <class Visitor>
+  template <class Visitor, class = InstructionSet>
   bool visit_edges(Visitor& visit) {
     const int n = static_cast<int>(num_elements_);
     const Nibbles all[2] = {nibbles_below(std::min(n, 16)), nibbles_below(std::max(n - 16, 0))};
@@ -235,6 +235,8 @@ class FaceEnumeration {
 
 }  // namespace detail
 
+inline namespace WHITNEY_INSTRUCTION_SET {
+
 /// Calls visit(const Simplex& face) for every face_dim-dimensional face of the simplex, each once, in a fixed order;
 /// the simplex itself when face_dim is its dimension. The visitor returns void, or (as bool) whether to go on; the
 /// result is false when it stopped. The face lives in one buffer that the next call overwrites: copy what is to stay.
@@ -254,4 +256,5 @@ bool for_each_facet(const Simplex& simplex, Visitor&& visit) {
   return for_each_face(simplex, simplex.dim() - 1, visit);
 }
 
+}  // namespace WHITNEY_INSTRUCTION_SET
 }  // namespace whitney::coxeter

@@ -8,7 +8,28 @@
 #include <immintrin.h>
 #endif
 
+// The code below depends on the instructions that whoever compiles it allows. So it, and everything inline that is made
+// of it, is in a namespace named after them: copies that differ have different names, and the linker never takes one for
+// the other.
+#if defined(__BMI2__) && defined(__AVX2__) && defined(__AVX512F__)
+#define WHITNEY_INSTRUCTION_SET with_bmi2_avx512
+#elif defined(__BMI2__) && defined(__AVX2__)
+#define WHITNEY_INSTRUCTION_SET with_bmi2_avx2
+#elif defined(__BMI2__)
+#define WHITNEY_INSTRUCTION_SET with_bmi2
+#elif defined(__AVX512F__)
+#define WHITNEY_INSTRUCTION_SET with_avx512
+#elif defined(__AVX2__)
+#define WHITNEY_INSTRUCTION_SET with_avx2
+#else
+#define WHITNEY_INSTRUCTION_SET plain
+#endif
+
 namespace whitney::coxeter {
+inline namespace WHITNEY_INSTRUCTION_SET {
+
+/// Tells copies of a template apart that is not in this namespace.
+struct InstructionSet {};
 
 /// Sixteen numbers 0 .. 15 side by side, number i in the bits 4 i .. 4 i + 3. A set of such numbers is the word whose
 /// nibble x is 15 for the members x and 0 for the others.
@@ -107,4 +128,5 @@ inline void widen_nibbles(Nibbles numbers, std::uint16_t increment, std::uint16_
 #endif
 }
 
+}  // namespace WHITNEY_INSTRUCTION_SET
 }  // namespace whitney::coxeter

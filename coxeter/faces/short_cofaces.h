@@ -10,6 +10,7 @@
 #include <coxeter/faces/short_simplex.h>
 
 namespace whitney::coxeter::detail {
+inline namespace WHITNEY_INSTRUCTION_SET {
 
 /// CofaceEnumeration for d <= 15. From the outside: which elements of the last part wrap to the front, where they are a
 /// part of their own; how often each part is cut; the pieces, each a subset of what is left of its part. The ways to
@@ -230,4 +231,5 @@ class ShortCofaces {
   ShortOutput out_;
 };
 
+}  // namespace WHITNEY_INSTRUCTION_SET
 }  // namespace whitney::coxeter::detail

@@ -5,6 +5,7 @@
 #include <coxeter/faces/short_simplex.h>
 
 namespace whitney::coxeter::detail {
+inline namespace WHITNEY_INSTRUCTION_SET {
 
 /// FaceEnumeration for d <= 15: a block of merged parts is the list of a set, so there are no large tables to set up,
 /// and nothing to undo. The first vertex of the face is vertex i of the simplex; a block goes from one vertex that is
@@ -130,4 +131,5 @@ class ShortFaces {
   ShortOutput out_;
 };
 
+}  // namespace WHITNEY_INSTRUCTION_SET
 }  // namespace whitney::coxeter::detail

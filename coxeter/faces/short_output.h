@@ -13,6 +13,7 @@
 #include <coxeter/simplex.h>
 
 namespace whitney::coxeter::detail {
+inline namespace WHITNEY_INSTRUCTION_SET {
 
 /// A simplex with d <= 15 that is rewritten as a whole, from words, for a visitor.
 class ShortOutput {
@@ -85,4 +86,5 @@ class ShortOutput {
   alignas(64) std::uint16_t increments_[2 * kMaxShortElements];  // the last place of a part plus 1 is its end
 };
 
+}  // namespace WHITNEY_INSTRUCTION_SET
 }  // namespace whitney::coxeter::detail

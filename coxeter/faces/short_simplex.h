@@ -8,6 +8,7 @@
 #include <coxeter/simplex.h>
 
 namespace whitney::coxeter::detail {
+inline namespace WHITNEY_INSTRUCTION_SET {
 
 /// Whether the classes below take this simplex, and are worth it on this processor.
 inline bool is_short(const Simplex& simplex) {
@@ -44,4 +45,5 @@ struct ShortSimplex {
   Nibbles before[kMaxShortElements + 1];   ///< the set of the elements before vertex q
 };
 
+}  // namespace WHITNEY_INSTRUCTION_SET
 }  // namespace whitney::coxeter::detail

@@ -144,7 +144,7 @@ TEST(SimplexWidth, IsTheClosedFormForMovedCoxeterAndFreudenthal) {
       Q = plane * Q;
     }
     for (const double L : {1.0, 1e-9, 3e7}) {
-      const Eigen::VectorXd b = Eigen::VectorXd::Constant(d, 0.3 * L);
+      const std::vector<double> b(d, 0.3 * L);
       const double coxeter_width = coxeter_a_quality(d, L).width, freudenthal_width = freudenthal_quality(d, L).width;
       for (const auto& T : {coxeter_a(d, L), coxeter_a(d, L).transformed(Q, b)}) {
         EXPECT_LE(simplex_width(T), coxeter_width) << d;
@@ -164,7 +164,7 @@ TEST(SimplexWidth, OfAnyAffineImageByAllSimplices) {
     Eigen::MatrixXd A(d, d);
     for (int i = 0; i < d; ++i)
       for (int j = 0; j < d; ++j) A(i, j) = (i == j ? 1.3 + i : 0) + 0.37 * std::sin(1 + 3 * i + 7 * j);
-    const Triangulation T(A, Eigen::VectorXd::Zero(d));
+    const Triangulation T(A, std::vector<double>(d));
     std::vector<int> order(d);
     std::iota(order.begin(), order.end(), 0);
     double longest = 0;
@@ -189,7 +189,7 @@ TEST(SimplexWidth, OfAnyAffineImageByAllSimplices) {
   }
   Eigen::MatrixXd skew = Eigen::MatrixXd::Identity(13, 13);
   skew(0, 1) = 0.5;
-  EXPECT_THROW(simplex_width(Triangulation(skew, Eigen::VectorXd::Zero(13))), InvalidInput);
+  EXPECT_THROW(simplex_width(Triangulation(skew, std::vector<double>(13))), InvalidInput);
 }
 
 /// The width for the linear part c I + J, from the inverse in closed form, in long double.

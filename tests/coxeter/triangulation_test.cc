@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <coxeter/base/eigen_view.h>
 #include <coxeter/triangulation.h>
 
 #include <cmath>
@@ -38,9 +39,9 @@ TEST(Triangulation, EdgeLengthIsTheLongestEdge) {
   for (int d = 1; d <= 10; ++d) {
     for (const auto& t : {freudenthal(d, 0.3), coxeter_a(d, 0.3)}) {
       EXPECT_EQ(t.edge_length(), 0.3);
-      EXPECT_NEAR(brute_force_edge(t.linear()), 0.3, 1e-14);
+      EXPECT_NEAR(brute_force_edge(as_eigen(t.linear())), 0.3, 1e-14);
     }
-    const Triangulation t(skew(d), Eigen::VectorXd::Zero(d));
+    const Triangulation t(skew(d), std::vector<double>(d));
     EXPECT_NEAR(t.edge_length(), brute_force_edge(skew(d)), 1e-12);
   }
 }
@@ -48,47 +49,47 @@ TEST(Triangulation, EdgeLengthIsTheLongestEdge) {
 TEST(Triangulation, EdgeLengthSurvivesSimilarities) {
   for (const int d : {1, 3, 30, 100})
     for (const double length : {1e-9, 1.0, 1e9}) {
-      const auto moved = coxeter_a(d, 1).transformed(rotation(d) * length, Eigen::VectorXd::Ones(d));
+      const auto moved = coxeter_a(d, 1).transformed(rotation(d) * length, std::vector<double>(d, 1.0));
       EXPECT_NEAR(moved.edge_length() / length, 1, 1e-9);
     }
 }
 
 TEST(Triangulation, EdgeLengthIsAnUpperBoundInHighDimension) {
   const int d = 25;
-  const Triangulation t(skew(d), Eigen::VectorXd::Zero(d));
-  EXPECT_GE(t.edge_length(), t.linear().rowwise().sum().norm());
+  const Triangulation t(skew(d), std::vector<double>(d));
+  EXPECT_GE(t.edge_length(), as_eigen(t.linear()).rowwise().sum().norm());
   EXPECT_TRUE(std::isfinite(t.edge_length()));
 }
 
 TEST(Triangulation, CoxeterGramMatrix) {
   for (const int d : {1, 2, 3, 10, 400}) {
-    const Eigen::MatrixXd gram = coxeter_a(d, 1).linear().transpose() * coxeter_a(d, 1).linear();
+    const Eigen::MatrixXd gram = as_eigen(coxeter_a(d, 1).linear()).transpose() * as_eigen(coxeter_a(d, 1).linear());
     const Eigen::MatrixXd expected = Eigen::MatrixXd::Identity(d, d) - Eigen::MatrixXd::Constant(d, d, 1.0 / (d + 1));
     EXPECT_LT((gram / gram(0, 0) - expected / expected(0, 0)).cwiseAbs().maxCoeff(), 1e-13);
   }
 }
 
 TEST(Triangulation, FreudenthalSpacingIsExactWhereItCanBe) {
-  EXPECT_EQ(freudenthal(4, 2).linear(), Eigen::MatrixXd(Eigen::MatrixXd::Identity(4, 4)));
+  EXPECT_EQ(freudenthal(4, 2).linear(), Matrix::identity(4));
   EXPECT_EQ(freudenthal(9, 0.75).linear()(3, 3), 0.25);
 }
 
 TEST(Triangulation, LatticeCoordinatesInvertCartesian) {
   for (const int d : {1, 4, 40}) {
-    const Triangulation t(skew(d), Eigen::VectorXd::LinSpaced(d, -1, 1));
+    const Triangulation t(skew(d), as_vector(Eigen::VectorXd::LinSpaced(d, -1, 1)));
     std::vector<std::int32_t> z(static_cast<std::size_t>(d));
     for (int i = 0; i < d; ++i) z[static_cast<std::size_t>(i)] = 17 * i - 40;
     std::vector<double> x(z.size()), again(z.size());
     t.cartesian(z, x);
     t.cartesian(z, again);
     EXPECT_EQ(x, again);
-    const Eigen::VectorXd back = t.lattice_coordinates(x);
+    const std::vector<double> back = t.lattice_coordinates(x);
     for (int i = 0; i < d; ++i) EXPECT_NEAR(back[i], z[static_cast<std::size_t>(i)], 1e-9);
   }
 }
 
 TEST(Triangulation, TransformedMovesThePoints) {
-  const Triangulation t = coxeter_a(3, 1), moved = t.transformed(skew(3), Eigen::Vector3d(1, 2, 3));
+  const Triangulation t = coxeter_a(3, 1), moved = t.transformed(skew(3), std::vector<double>{1, 2, 3});
   const std::vector<std::int32_t> z{3, -1, 4};
   std::vector<double> x(3), y(3);
   t.cartesian(z, x);
@@ -101,12 +102,12 @@ TEST(Triangulation, RejectsBadInput) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   constexpr double kInf = std::numeric_limits<double>::infinity();
   const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(3, 3);
-  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(3);
-  EXPECT_THROW(Triangulation(Eigen::MatrixXd(2, 3), zero), InvalidInput);
-  EXPECT_THROW(Triangulation(Eigen::MatrixXd(0, 0), Eigen::VectorXd(0)), InvalidInput);
-  EXPECT_THROW(Triangulation(one, Eigen::VectorXd::Zero(2)), InvalidInput);
+  const std::vector<double> zero(3);
+  EXPECT_THROW(Triangulation(Matrix(2, 3), zero), InvalidInput);
+  EXPECT_THROW(Triangulation(Matrix(), {}), InvalidInput);
+  EXPECT_THROW(Triangulation(one, std::vector<double>(2)), InvalidInput);
   EXPECT_THROW(Triangulation(one * kNan, zero), InvalidInput);
-  EXPECT_THROW(Triangulation(one, zero.array() + kInf), InvalidInput);
+  EXPECT_THROW(Triangulation(one, {0, 0, kInf}), InvalidInput);
   EXPECT_THROW(Triangulation(one * 0, zero), InvalidInput);
   EXPECT_THROW(Triangulation(Eigen::MatrixXd::Ones(3, 3), zero), InvalidInput);
   EXPECT_NO_THROW(Triangulation(one * 1e-200, zero));  // small is not singular
@@ -122,7 +123,7 @@ TEST(Triangulation, RejectsBadInput) {
   EXPECT_THROW(t.cartesian(z, x), InvalidInput);
   EXPECT_THROW(t.lattice_coordinates(x), InvalidInput);
   EXPECT_THROW(t.transformed(Eigen::MatrixXd::Identity(2, 2), zero), InvalidInput);
-  EXPECT_THROW(t.transformed(one, Eigen::VectorXd::Zero(2)), InvalidInput);
+  EXPECT_THROW(t.transformed(one, std::vector<double>(2)), InvalidInput);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <coxeter/base/eigen_view.h>
 #include <perturbation/displacement.h>
 
 #include <cmath>
@@ -32,8 +33,8 @@ TEST(DisplacementMap, PositionAddsToTheTriangulation) {
   const auto t = coxeter::freudenthal(4, 2);
   DisplacementMap u(4);
   u.set({1, 2, 3, 4}, std::vector{0.5, 0.0, 0.0, -0.25});
-  EXPECT_EQ(position(t, u, {1, 2, 3, 4}), Eigen::Vector4d(1.5, 2, 3, 3.75));
-  EXPECT_EQ(position(t, u, {1, 2, 3, 5}), Eigen::Vector4d(1, 2, 3, 5));
+  EXPECT_EQ(position(t, u, {1, 2, 3, 4}), (std::vector<double>{1.5, 2, 3, 3.75}));
+  EXPECT_EQ(position(t, u, {1, 2, 3, 5}), (std::vector<double>{1, 2, 3, 5}));
 }
 
 TEST(DisplacementMap, RejectsBadInput) {
@@ -132,8 +133,8 @@ double least_volume_ratio(const coxeter::Triangulation& t, const DisplacementMap
     Eigen::MatrixXd before(d, d), after(d, d);
     const auto v = s.vertices();
     for (int i = 0; i < d; ++i) {
-      before.col(i) = position(t, none, v[static_cast<std::size_t>(i) + 1]) - position(t, none, v[0]);
-      after.col(i) = position(t, u, v[static_cast<std::size_t>(i) + 1]) - position(t, u, v[0]);
+      before.col(i) = as_eigen(position(t, none, v[static_cast<std::size_t>(i) + 1])) - as_eigen(position(t, none, v[0]));
+      after.col(i) = as_eigen(position(t, u, v[static_cast<std::size_t>(i) + 1])) - as_eigen(position(t, u, v[0]));
     }
     least = std::min(least, after.determinant() / before.determinant());
   });
@@ -167,7 +168,7 @@ TEST(Embedding, NothingFoldsBelowTheBoundAndSomethingDoesAboveIt) {
     for (int q = 1; q <= d; ++q)
       for (int c = 0; c < q; ++c) chain[static_cast<std::size_t>(q)][c] = 1;
     Eigen::MatrixXd corners(num_vertices, num_vertices);
-    for (int q = 0; q <= d; ++q) corners.col(q) << 1, position(t, fold, chain[static_cast<std::size_t>(q)]);
+    for (int q = 0; q <= d; ++q) corners.col(q) << 1, as_eigen(position(t, fold, chain[static_cast<std::size_t>(q)]));
     const Eigen::MatrixXd gradients = corners.inverse().rightCols(d);
     Eigen::VectorXd slope = Eigen::VectorXd::Zero(d);
     for (int q = 0; q < (num_vertices % 2 ? d : num_vertices); q += 2) slope += gradients.row(q);

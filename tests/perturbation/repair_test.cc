@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <coxeter/base/eigen_view.h>
 #include <perturbation/repair.h>
 
 #include <cmath>
@@ -19,7 +20,7 @@ namespace {
 
 /// The Coxeter triangulation, moved into general position by fixed numbers.
 coxeter::Triangulation moved_coxeter(int d, double edge_length, int variant = 0) {
-  Eigen::VectorXd shift(d);
+  std::vector<double> shift(d);
   for (int c = 0; c < d; ++c) shift[c] = edge_length * (0.137 + 0.291 * c + 0.173 * variant);
   Eigen::MatrixXd turn = Eigen::MatrixXd::Identity(d, d);
   for (int c = 0; c + 1 < d; ++c) {
@@ -350,7 +351,7 @@ class GoodAtVerticesOnly : public SphereOracle {
   bool foot(std::span<const double> x, std::span<double> point, std::span<double> frame,
             FootErrors& errors) const override {
     if (!SphereOracle::foot(x, point, frame, errors)) return false;
-    const Eigen::VectorXd z = triangulation_.lattice_coordinates(x);
+    const Eigen::VectorXd z = as_eigen(triangulation_.lattice_coordinates(x));
     if ((z - z.array().round().matrix()).cwiseAbs().maxCoeff() > 1e-9) errors.point = 10;
     return true;
   }

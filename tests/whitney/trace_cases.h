@@ -9,6 +9,7 @@
 
 #include <Eigen/Dense>
 
+#include <coxeter/base/eigen_view.h>
 #include <coxeter/triangulation.h>
 #include <whitney/functions/combinators.h>
 #include <whitney/functions/function.h>
@@ -59,7 +60,7 @@ inline TraceCase rotated_and_shifted(TraceCase c) {
   const int d = c.function.ambient_dim();
   const Eigen::MatrixXd Q = fixed_rotation(d);
   const Eigen::VectorXd b = fixed_shift(d);
-  c.function = translate(rotate(c.function, Q), b);
+  c.function = translate(rotate(c.function, Q), as_vector(b));
   c.seeds = moved_points(c.seeds, d, [&](const Eigen::VectorXd& x) -> Eigen::VectorXd { return Q * x + b; });
   c.name += " moved";
   return c;
@@ -73,7 +74,7 @@ inline TraceCase in_other_lengths(TraceCase c, double unit) {
   return c;
 }
 inline TraceCase with_values_times(TraceCase c, double factor) {
-  c.function = multiply_values(c.function, Eigen::VectorXd::Constant(c.function.codim(), factor));
+  c.function = multiply_values(c.function, std::vector<double>(c.function.codim(), factor));
   c.name += " f times " + std::to_string(factor);
   return c;
 }

@@ -10,6 +10,7 @@
 
 #include <Eigen/Dense>
 
+#include <coxeter/base/eigen_view.h>
 #include <coxeter/base/error.h>
 #include <whitney/construction/distance_bound.h>
 
@@ -119,7 +120,7 @@ PlacedComplex place_on_manifold(CellComplex complex, const coxeter::Triangulatio
   for (std::size_t i = 0; i < complex.num_cells(0) && go_on(i); ++i) {
     const coxeter::Simplex simplex = complex.simplex(0, i);
     for (int q = 0; q <= k; ++q)
-      corners.col(q) = perturbation::position(triangulation, displacements, simplex.vertex(q));
+      corners.col(q) = as_eigen(perturbation::position(triangulation, displacements, simplex.vertex(q)));
     Eigen::Map<Eigen::VectorXd> x(&complex.points[i * d], d);
     if (const auto placed = placer.place(corners, x)) {
       x = *placed;

@@ -6,6 +6,9 @@
 #include <string>
 #include <utility>
 
+#include <Eigen/LU>
+
+#include <coxeter/base/eigen_view.h>
 #include <coxeter/base/error.h>
 #include <coxeter/base/hash_slots.h>
 #include <whitney/cells/subdivide.h>
@@ -27,7 +30,7 @@ SplitFaces::SplitFaces(const CellComplex& complex, const coxeter::Triangulation&
     : triangulation_(triangulation),
       displacements_(displacements),
       d_(complex.ambient_dim),
-      reversed_(triangulation.linear().determinant() < 0) {
+      reversed_(as_eigen(triangulation.linear()).determinant() < 0) {
   if (d_ < 2 || d_ > kMaxDim)
     throw InvalidInput("the ambient mesh is made for 2 <= d <= 4, not for d = " + std::to_string(d_));
   if (triangulation.ambient_dim() != d_ || displacements.ambient_dim() != d_)
@@ -59,8 +62,8 @@ SplitFaces::SplitFaces(const CellComplex& complex, const coxeter::Triangulation&
 std::uint32_t SplitFaces::number_of(const coxeter::LatticeVertex& vertex) {
   const auto [entry, is_new] = numbers_.try_emplace(vertex, static_cast<std::uint32_t>(numbers_.size()));
   if (is_new) {
-    const Eigen::VectorXd x = perturbation::position(triangulation_, displacements_, vertex);
-    positions_.insert(positions_.end(), x.data(), x.data() + d_);
+    const std::vector<double> x = perturbation::position(triangulation_, displacements_, vertex);
+    positions_.insert(positions_.end(), x.begin(), x.end());
   }
   return entry->second;
 }

@@ -19,7 +19,7 @@ using Buffer = boost::container::small_vector<double, 128>;
 
 Buffer make_buffer(std::size_t size) { return Buffer(size, boost::container::default_init); }
 
-void require_size(const char* what, Eigen::Index size, Eigen::Index expected) {
+void require_size(const char* what, std::size_t size, std::size_t expected) {
   if (size != expected) {
     throw InvalidInput(std::string(what) + ": size " + std::to_string(size) + " instead of " +
                        std::to_string(expected));
@@ -201,16 +201,16 @@ Function embed(Function f, int ambient_dim) {
   return product(std::move(f), Function(std::make_shared<IdentityModel>(extra)));
 }
 
-Function rotate(Function f, const Eigen::MatrixXd& Q) {
-  const Eigen::Index d = f.ambient_dim();
-  require_size("rotate: rows of Q", Q.rows(), d);
-  require_size("rotate: columns of Q", Q.cols(), d);
-  require_finite("rotate: Q", Q.allFinite());
+Function rotate(Function f, const Matrix& Q) {
+  const std::ptrdiff_t d = f.ambient_dim();
+  require_size("rotate: rows of Q", static_cast<std::size_t>(Q.rows()), static_cast<std::size_t>(d));
+  require_size("rotate: columns of Q", static_cast<std::size_t>(Q.cols()), static_cast<std::size_t>(d));
+  require_finite("rotate: Q", all_finite(Q.entries()));
   double deviation = 0;
-  for (Eigen::Index i = 0; i < d; ++i) {
-    for (Eigen::Index j = 0; j <= i; ++j) {
+  for (std::ptrdiff_t i = 0; i < d; ++i) {
+    for (std::ptrdiff_t j = 0; j <= i; ++j) {
       double dot = 0;
-      for (Eigen::Index l = 0; l < d; ++l) dot += Q(l, i) * Q(l, j);
+      for (std::ptrdiff_t l = 0; l < d; ++l) dot += Q(l, i) * Q(l, j);
       deviation = std::max(deviation, std::abs(dot - (i == j)));
     }
   }
@@ -218,8 +218,8 @@ Function rotate(Function f, const Eigen::MatrixXd& Q) {
     throw InvalidInput("rotate: Q is not orthogonal, Q^T Q deviates from the identity by " + std::to_string(deviation));
   }
   InverseRotation map;
-  for (Eigen::Index i = 0; i < d; ++i) {
-    for (Eigen::Index j = 0; j < d; ++j) {
+  for (std::ptrdiff_t i = 0; i < d; ++i) {
+    for (std::ptrdiff_t j = 0; j < d; ++j) {
       map.q.push_back(Q(i, j));
       map.q_transposed.push_back(Q(j, i));
     }
@@ -227,10 +227,10 @@ Function rotate(Function f, const Eigen::MatrixXd& Q) {
   return compose(std::move(f), std::move(map));
 }
 
-Function translate(Function f, const Eigen::VectorXd& b) {
-  require_size("translate: b", b.size(), f.ambient_dim());
-  require_finite("translate: b", b.allFinite());
-  return compose(std::move(f), InverseTranslation{{b.data(), b.data() + b.size()}});
+Function translate(Function f, std::span<const double> b) {
+  require_size("translate: b", b.size(), static_cast<std::size_t>(f.ambient_dim()));
+  require_finite("translate: b", all_finite(b));
+  return compose(std::move(f), InverseTranslation{{b.begin(), b.end()}});
 }
 
 Function scale(Function f, double s) {
@@ -239,16 +239,16 @@ Function scale(Function f, double s) {
   return compose(std::move(f), InverseScaling{s});
 }
 
-Function multiply_values(Function f, const Eigen::VectorXd& factors) {
-  require_size("multiply_values: factors", factors.size(), f.codim());
-  require_finite("multiply_values: factors", factors.allFinite());
-  if ((factors.array() == 0).any()) throw InvalidInput("multiply_values: a factor is 0");
+Function multiply_values(Function f, std::span<const double> factors) {
+  require_size("multiply_values: factors", factors.size(), static_cast<std::size_t>(f.codim()));
+  require_finite("multiply_values: factors", all_finite(factors));
+  if (std::ranges::find(factors, 0.0) != factors.end()) throw InvalidInput("multiply_values: a factor is 0");
   return Function(std::make_shared<MultipliedModel>(
-      std::move(f), std::vector<double>(factors.data(), factors.data() + factors.size())));
+      std::move(f), std::vector<double>(factors.begin(), factors.end())));
 }
 
 Function permute_variables(Function f, std::span<const int> permutation) {
-  require_size("permute_variables: permutation", permutation.size(), f.ambient_dim());
+  require_size("permute_variables: permutation", permutation.size(), static_cast<std::size_t>(f.ambient_dim()));
   std::vector<int> sorted(permutation.begin(), permutation.end());
   std::sort(sorted.begin(), sorted.end());
   for (std::size_t i = 0; i < sorted.size(); ++i) {

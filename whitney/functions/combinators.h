@@ -3,8 +3,7 @@
 
 #include <span>
 
-#include <Eigen/Core>
-
+#include <coxeter/base/matrix.h>
 #include <whitney/functions/function.h>
 
 namespace whitney {
@@ -21,16 +20,16 @@ Function product(Function f, Function g);
 Function embed(Function f, int ambient_dim);
 
 /// Q M. Q: d x d, orthogonal up to 1e-9 in each entry of Q^T Q; a reflection is allowed.
-Function rotate(Function f, const Eigen::MatrixXd& Q);
+Function rotate(Function f, const Matrix& Q);
 
 /// M + b. b: d.
-Function translate(Function f, const Eigen::VectorXd& b);
+Function translate(Function f, std::span<const double> b);
 
 /// s M, s > 0. The values of f are not scaled.
 Function scale(Function f, double s);
 
 /// M itself, from (c_0 f_0, .., c_(k-1) f_(k-1)). factors: k, not 0.
-Function multiply_values(Function f, const Eigen::VectorXd& factors);
+Function multiply_values(Function f, std::span<const double> factors);
 
 /// The image of M under the map that makes coordinate i of a point coordinate permutation[i]. permutation: d.
 Function permute_variables(Function f, std::span<const int> permutation);

@@ -7,6 +7,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include <coxeter/base/eigen_view.h>
 #include <coxeter/base/error.h>
 
 namespace whitney {
@@ -65,8 +66,8 @@ int variable_index(std::string_view text, int d, std::span<const std::string> va
 Projection coordinate_projection(int ambient_dim, std::array<int, 3> variables) {
   if (ambient_dim < 1) throw InvalidInput("projection: the ambient dimension must be at least 1");
   Projection result;
-  result.A.setZero(4, ambient_dim);
-  result.center.setZero(ambient_dim);
+  result.A = Matrix(4, ambient_dim);
+  result.center.resize(static_cast<std::size_t>(ambient_dim));
   std::vector<bool> used(static_cast<std::size_t>(std::max(ambient_dim, 3)), false);
   for (int row = 0; row < 3; ++row) {
     const int variable = variables[static_cast<std::size_t>(row)];
@@ -102,8 +103,8 @@ Projection principal_projection(std::span<const double> points, int ambient_dim)
   const Eigen::MatrixXd V = solver.eigenvectors().rowwise().reverse();
 
   Projection result;
-  result.A.setZero(4, ambient_dim);
-  result.center = centroid;
+  result.A = Matrix(4, ambient_dim);
+  result.center = as_vector(centroid);
   const Eigen::Index rows = std::min(4, ambient_dim);
   for (Eigen::Index first = 0; first < rows;) {
     Eigen::Index last = first + 1;
@@ -114,7 +115,7 @@ Projection principal_projection(std::span<const double> points, int ambient_dim)
       const double largest = direction.cwiseAbs().maxCoeff();
       Eigen::Index entry = 0;
       while (std::abs(direction[entry]) < 0.99 * largest) ++entry;
-      result.A.row(j) = (direction[entry] < 0 ? -1.0 : 1.0) * direction.transpose();
+      for (int i = 0; i < ambient_dim; ++i) result.A(j, i) = direction[entry] < 0 ? -direction[i] : direction[i];
     }
     first = last;
   }
@@ -142,7 +143,7 @@ Projection make_projection(std::string_view text, std::span<const double> points
 }
 
 std::vector<double> project(const Projection& projection, std::span<const double> points) {
-  const auto d = static_cast<std::size_t>(projection.center.size());
+  const std::size_t d = projection.center.size();
   if (d < 1 || points.size() % d != 0) {
     throw InvalidInput("points: their number of coordinates is not a multiple of the projection's ambient dimension");
   }
@@ -152,8 +153,7 @@ std::vector<double> project(const Projection& projection, std::span<const double
     for (Eigen::Index row = 0; row < 4; ++row) {
       double sum = 0;
       for (std::size_t k = 0; k < d; ++k) {
-        const auto column = static_cast<Eigen::Index>(k);
-        sum += projection.A(row, column) * (points[i + k] - projection.center[column]);
+        sum += projection.A(row, static_cast<std::ptrdiff_t>(k)) * (points[i + k] - projection.center[k]);
       }
       result.push_back(sum);
     }

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include <Eigen/Core>
+#include <coxeter/base/matrix.h>
 
 namespace whitney {
 
@@ -16,8 +16,8 @@ namespace whitney {
 struct Projection {
   /// 4 x d, rows orthonormal (zero rows where d has none left): three rows for x, y, z, and the `depth`, a direction
   /// that the picture loses. Where a projected surface runs through itself, the two sheets differ in depth.
-  Eigen::Matrix<double, 4, Eigen::Dynamic> A;
-  Eigen::VectorXd center;  ///< d
+  Matrix A;
+  std::vector<double> center;  ///< d
 };
 
 /// The coordinates `variables[0..2]` (counted from 0) as x, y, z, unmoved; depth is the first variable left over. Where

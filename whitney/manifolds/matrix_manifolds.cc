@@ -24,7 +24,7 @@ constexpr double kRoundings = 64;
 /// The closest point is known (Eckart and Young, Fan and Hoffman), and the decompositions are backward stable.
 constexpr FootPromise kPromise{FootPromise::Place::kGlobal, FootPromise::Errors::kProven};
 
-using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxSize, kMaxSize>;
+using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxSize, kMaxSize>;
 
 void require(bool condition, const std::string& message) {
   if (!condition) throw InvalidInput(message);
@@ -73,18 +73,18 @@ class Grassmann : public Submanifold::Model {
   bool project(std::span<const double> x, std::span<double> point, std::span<double> frame,
                FootErrors& errors) const override {
     const int d = ambient_dim();
-    Matrix A;
+    SmallMatrix A;
     fill_matrix(x.data(), q_, p_, A);
     const double size = std::max(1.0, A.norm());
     if (!std::isfinite(size)) return false;
-    const Eigen::SelfAdjointEigenSolver<Matrix> solver(A);
+    const Eigen::SelfAdjointEigenSolver<SmallMatrix> solver(A);
     if (solver.info() != Eigen::Success) return false;
     // Ascending: the last p eigenvectors span the image of the projector.
     const double gap = solver.eigenvalues()[q_ - p_] - solver.eigenvalues()[q_ - p_ - 1];
     if (!(gap > kMedial * size)) return false;
-    const Matrix& V = solver.eigenvectors();
+    const SmallMatrix& V = solver.eigenvectors();
     const auto column = [&](int i) { return V.data() + static_cast<std::ptrdiff_t>(i) * q_; };
-    const Matrix P = V.rightCols(p_) * V.rightCols(p_).transpose();
+    const SmallMatrix P = V.rightCols(p_) * V.rightCols(p_).transpose();
     coordinates_of(P, q_, point.data());
 
     double* row = frame.data();
@@ -115,7 +115,7 @@ class Grassmann : public Submanifold::Model {
   }
   bool is_connected() const override { return true; }
   std::vector<double> seed_points() const override {
-    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(q_, q_);
+    Matrix A(q_, q_);
     for (int i = 0; i < p_; ++i) A(i, i) = 1;
     return symmetric_coordinates(A);
   }
@@ -133,11 +133,11 @@ class OrthonormalColumns : public Submanifold::Model {
   bool project(std::span<const double> x, std::span<double> point, std::span<double> frame,
                FootErrors& errors) const override {
     const int d = ambient_dim();
-    const Matrix A = Eigen::Map<const Eigen::MatrixXd>(x.data(), q_, p_);
+    const SmallMatrix A = Eigen::Map<const Eigen::MatrixXd>(x.data(), q_, p_);
     const double size = std::max(1.0, A.norm());
     if (!std::isfinite(size)) return false;
-    const Eigen::JacobiSVD<Matrix> svd(A, Eigen::ComputeThinU | Eigen::ComputeThinV);
-    Matrix U = svd.matrixU();
+    const Eigen::JacobiSVD<SmallMatrix> svd(A, Eigen::ComputeThinU | Eigen::ComputeThinV);
+    SmallMatrix U = svd.matrixU();
     double gap = svd.singularValues()[p_ - 1];
     if (p_ == q_) {
       if (U.determinant() * svd.matrixV().determinant() < 0) {
@@ -147,7 +147,7 @@ class OrthonormalColumns : public Submanifold::Model {
       gap += svd.singularValues()[p_ - 2];
     }
     if (!(gap > kMedial * size)) return false;
-    const Matrix X = U * svd.matrixV().transpose();
+    const SmallMatrix X = U * svd.matrixV().transpose();
     Eigen::Map<Eigen::MatrixXd>(point.data(), q_, p_) = X;
 
     // Rows of `columns`: the columns of X, then q - p that complete them.
@@ -217,7 +217,7 @@ Submanifold special_orthogonal(int q) {
 
 Submanifold so3_matrices() { return special_orthogonal(3); }
 
-std::vector<double> symmetric_coordinates(const Eigen::MatrixXd& A) {
+std::vector<double> symmetric_coordinates(const Matrix& A) {
   require(A.rows() == A.cols() && A.rows() >= 2, "symmetric_coordinates: a q x q matrix with q >= 2 is needed");
   const int q = static_cast<int>(A.rows());
   std::vector<double> coordinates(q * (q + 1) / 2 - 1);
@@ -225,10 +225,10 @@ std::vector<double> symmetric_coordinates(const Eigen::MatrixXd& A) {
   return coordinates;
 }
 
-Eigen::MatrixXd symmetric_matrix(std::span<const double> coordinates, int q, double trace) {
+Matrix symmetric_matrix(std::span<const double> coordinates, int q, double trace) {
   require(q >= 2 && coordinates.size() == static_cast<std::size_t>(q * (q + 1) / 2 - 1),
           "symmetric_matrix: q(q+1)/2 - 1 coordinates are needed");
-  Eigen::MatrixXd A(q, q);
+  Eigen::MatrixXd A;
   fill_matrix(coordinates.data(), q, trace, A);
   return A;
 }

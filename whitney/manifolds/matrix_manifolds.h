@@ -4,8 +4,7 @@
 #include <span>
 #include <vector>
 
-#include <Eigen/Core>
-
+#include <coxeter/base/matrix.h>
 #include <whitney/manifolds/submanifold.h>
 
 namespace whitney {
@@ -51,10 +50,10 @@ Submanifold so3_matrices();
 
 /// Coordinates (q(q+1)/2 - 1) of the trace-free part of a symmetric q x q matrix A in an orthonormal basis: first
 /// (A_11 + .. + A_kk - k A_(k+1)(k+1)) / sqrt(k (k+1)) for k = 1 .. q-1, then sqrt(2) A_ij for i < j, row by row.
-std::vector<double> symmetric_coordinates(const Eigen::MatrixXd& A);
+std::vector<double> symmetric_coordinates(const Matrix& A);
 
 /// The symmetric q x q matrix with these coordinates and this trace. Throws InvalidInput when the size is no
 /// q(q+1)/2 - 1 for the given q >= 2.
-Eigen::MatrixXd symmetric_matrix(std::span<const double> coordinates, int q, double trace);
+Matrix symmetric_matrix(std::span<const double> coordinates, int q, double trace);
 
 }  // namespace whitney

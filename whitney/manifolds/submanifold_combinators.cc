@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <string>
 #include <utility>
@@ -242,23 +243,28 @@ Submanifold embed(Submanifold M, int ambient_dim) {
   return Submanifold(std::make_shared<EmbeddedModel>(std::move(M), ambient_dim));
 }
 
-Submanifold rotate(Submanifold M, const Eigen::MatrixXd& Q) {
-  const Eigen::Index d = M.ambient_dim();
+Submanifold rotate(Submanifold M, const Matrix& Q) {
+  const std::ptrdiff_t d = M.ambient_dim();
   require(Q.rows() == d && Q.cols() == d, "rotate: Q must be d x d with d = " + std::to_string(d));
-  require(Q.allFinite(), "rotate: Q has an entry that is not finite");
-  require(((Q.transpose() * Q - Eigen::MatrixXd::Identity(d, d)).cwiseAbs().maxCoeff()) <= 1e-9,
-          "rotate: Q is not orthogonal");
+  require(all_finite(Q.entries()), "rotate: Q has an entry that is not finite");
+  for (std::ptrdiff_t i = 0; i < d; ++i) {
+    for (std::ptrdiff_t j = 0; j <= i; ++j) {
+      double dot = 0;
+      for (std::ptrdiff_t l = 0; l < d; ++l) dot += Q(l, i) * Q(l, j);
+      require(std::abs(dot - (i == j)) <= 1e-9, "rotate: Q is not orthogonal");
+    }
+  }
   Rotation map;
-  for (Eigen::Index i = 0; i < d; ++i)
-    for (Eigen::Index j = 0; j < d; ++j) map.rows.push_back(Q(i, j));
+  for (std::ptrdiff_t i = 0; i < d; ++i)
+    for (std::ptrdiff_t j = 0; j < d; ++j) map.rows.push_back(Q(i, j));
   complete_frame(map.rows, static_cast<int>(d), static_cast<int>(d));
   return moved(std::move(M), std::move(map));
 }
 
-Submanifold translate(Submanifold M, const Eigen::VectorXd& b) {
-  require(b.size() == M.ambient_dim(), "translate: b must have d = " + std::to_string(M.ambient_dim()) + " entries");
-  require(b.allFinite(), "translate: b has an entry that is not finite");
-  return moved(std::move(M), Translation{{b.data(), b.data() + b.size()}});
+Submanifold translate(Submanifold M, std::span<const double> b) {
+  require(std::ssize(b) == M.ambient_dim(), "translate: b must have d = " + std::to_string(M.ambient_dim()) + " entries");
+  require(all_finite(b), "translate: b has an entry that is not finite");
+  return moved(std::move(M), Translation{{b.begin(), b.end()}});
 }
 
 Submanifold scale(Submanifold M, double s) {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <Eigen/Core>
+#include <span>
 
+#include <coxeter/base/matrix.h>
 #include <whitney/manifolds/submanifold.h>
 
 namespace whitney {
@@ -20,10 +21,10 @@ Submanifold embed(Submanifold M, int ambient_dim);
 
 /// Q M. Q: d x d, orthogonal up to 1e-9 in each entry of Q^T Q (a reflection is allowed); what is applied is the
 /// orthonormal matrix that Gram and Schmidt make of its rows.
-Submanifold rotate(Submanifold M, const Eigen::MatrixXd& Q);
+Submanifold rotate(Submanifold M, const Matrix& Q);
 
 /// M + b. b: d.
-Submanifold translate(Submanifold M, const Eigen::VectorXd& b);
+Submanifold translate(Submanifold M, std::span<const double> b);
 
 /// s M, s > 0: lengths times s; reach and curvature radius too, rounded down.
 Submanifold scale(Submanifold M, double s);

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
 
 #include <coxeter/triangulation.h>
 #include <whitney/atlas/chart_atlas.h>
@@ -72,8 +71,5 @@ Submanifold submanifold_of(const Problem& problem);
 /// platform (up to the rounding of log, sin and cos). Throws InvalidInput on an impossible dimension, edge length or
 /// size of the given offset.
 coxeter::Triangulation make_triangulation(const TriangulationSpec& spec, int ambient_dim, double edge_length);
-
-/// A rotation matrix, uniform on SO(d), from a fixed generator: the same for a seed on every platform, up to rounding.
-Eigen::MatrixXd random_rotation(int ambient_dim, std::uint64_t rng_seed);
 
 }  // namespace whitney

@@ -11,6 +11,7 @@
 
 #include <Eigen/QR>
 
+#include <coxeter/base/eigen_view.h>
 #include <coxeter/locate.h>
 #include <whitney/tracing/exact_pivot.h>
 
@@ -25,8 +26,8 @@ SeedSearch::SeedSearch(const coxeter::Triangulation& triangulation, int codim, E
       ids_(dim_ + 1),
       kernel_(codim) {}
 
-SeedSearch::FullSimplex SeedSearch::locate(const Eigen::VectorXd& y) const {
-  const coxeter::Simplex simplex = coxeter::locate_full_lattice({y.data(), std::size_t(dim_)});
+SeedSearch::FullSimplex SeedSearch::locate(std::span<const double> y) const {
+  const coxeter::Simplex simplex = coxeter::locate_full_lattice(y);
   const auto elements = simplex.partition().elements();
   return {{simplex.base().begin(), simplex.base().end()}, {elements.begin(), elements.end() - 1}};
 }
@@ -123,13 +124,14 @@ void SeedSearch::describe(const FullSimplex& simplex, const std::vector<int>& fa
 }
 
 bool SeedSearch::search(std::span<const double> x, std::size_t limit, Crossing& found, std::string& reason) {
-  const Eigen::VectorXd start = triangulation_.lattice_coordinates(x);
+  const std::vector<double> z = triangulation_.lattice_coordinates(x);
+  const auto start = as_eigen(z);
   std::size_t examined = 0;
 
   // Newton's method on the interpolant: exact as soon as it stays in one simplex.
   Eigen::VectorXd y = start;
   for (int step = 0; step < 12; ++step) {
-    const FullSimplex simplex = locate(y);
+    const FullSimplex simplex = locate(as_span(y));
     if (!load(simplex)) break;
     ++examined;
     if (hit_face(simplex, found)) return true;
@@ -191,7 +193,7 @@ bool SeedSearch::search_full(std::span<const double> x, std::size_t limit,
 }
 
 // Visits the d-simplices around a point, given in lattice coordinates, nearest barycentre first, until visit is false.
-void SeedSearch::for_each_around(const Eigen::VectorXd& start, std::size_t limit,
+void SeedSearch::for_each_around(std::span<const double> start, std::size_t limit,
                                  const std::function<bool(const FullSimplex&)>& visit) {
   struct Entry {
     double distance;
@@ -211,7 +213,7 @@ void SeedSearch::for_each_around(const Eigen::VectorXd& start, std::size_t limit
   auto push = [&](FullSimplex simplex) {
     if (!seen.insert(key_of(simplex)).second) return;
     const std::vector<double> centre = barycentre(simplex);
-    Eigen::VectorXd away = triangulation_.linear() * (Eigen::Map<const Eigen::VectorXd>(centre.data(), dim_) - start);
+    const Eigen::VectorXd away = as_eigen(triangulation_.linear()) * (as_eigen(centre) - as_eigen(start));
     queue.push({away.norm(), seen.size(), std::move(simplex)});
   };
   push(locate(start));

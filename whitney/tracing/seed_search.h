@@ -55,13 +55,13 @@ class SeedSearch {
     std::vector<int> order;  // a permutation of 0..d-1
   };
 
-  FullSimplex locate(const Eigen::VectorXd& y) const;
+  FullSimplex locate(std::span<const double> y) const;
   FullSimplex neighbour(const FullSimplex& simplex, int opposite) const;
   bool load(const FullSimplex& simplex);
   bool hit_face(const FullSimplex& simplex, Crossing& found);
   void describe(const FullSimplex& simplex, const std::vector<int>& face, Crossing& found) const;
   std::vector<double> barycentre(const FullSimplex& simplex) const;
-  void for_each_around(const Eigen::VectorXd& y, std::size_t limit,
+  void for_each_around(std::span<const double> y, std::size_t limit,
                        const std::function<bool(const FullSimplex&)>& visit);
 
   const coxeter::Triangulation& triangulation_;

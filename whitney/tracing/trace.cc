@@ -630,7 +630,7 @@ void Tracer<Shape>::report_point(const Pending& simplex) {
   for (int q = 0; q <= k_; ++q) sums_[q] /= total;
   for (int c = 0; c < d_; ++c) y_[c] = base[c] + sums_[parts[c]];
   double* x = &points_[std::size_t{simplex.id} * d_];
-  const Eigen::MatrixXd& linear = triangulation_.linear();
+  const Matrix& linear = triangulation_.linear();
   for (int r = 0; r < d_; ++r) x[r] = triangulation_.offset()[r];
   for (int c = 0; c < d_; ++c) {
     const double* column = linear.data() + std::size_t(c) * d_;
@@ -913,9 +913,9 @@ void Tracer<Shape>::list_boundary(TraceResult& out) {
         after += weights[q];
         for (std::uint16_t c : sigma.partition().part(q - 1)) y_[c] += after / total;
       }
-      const Eigen::VectorXd x =
-          triangulation_.offset() + triangulation_.linear() * Eigen::Map<const Eigen::VectorXd>(y_.data(), d_);
-      listed.points.insert(listed.points.end(), x.data(), x.data() + d_);
+      std::vector<double> x = multiply(triangulation_.linear(), {y_.data(), std::size_t(d_)});
+      for (int c = 0; c < d_; ++c) x[c] += triangulation_.offset()[c];
+      listed.points.insert(listed.points.end(), x.begin(), x.end());
     }
     out.boundary.push_back(std::move(listed));
   }

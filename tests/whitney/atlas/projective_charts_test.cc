@@ -196,9 +196,9 @@ GluedMesh traced_and_glued(const ChartAtlas& atlas, double edge_length) {
       options.box->lower.push_back(lower);
       options.box->upper.push_back(upper);
     }
-    Eigen::VectorXd offset(d);
+    std::vector<double> offset(d);
     for (int i = 0; i < d; ++i) offset[i] = 0.0123 * (i + 1);
-    const auto triangulation = coxeter::coxeter_a(d, edge_length).transformed(Eigen::MatrixXd::Identity(d, d), offset);
+    const auto triangulation = coxeter::coxeter_a(d, edge_length).transformed(Matrix::identity(d), offset);
     const std::vector<double> seeds = find_seeds(chart.function, Domain(d, options.inequalities, options.box)).points;
     const CellComplex complex = cell_complex(trace(chart.function, triangulation, seeds, options));
     const Strata strata = strata_of(complex);

@@ -22,8 +22,8 @@ double volume_of_cells(const WhitneyCase& c) {
     whole.points.clear();
     whole.simplices.clear();
     for (const auto& v : c.result.complex.simplex(n, i).vertices()) {
-      const Eigen::VectorXd x = perturbation::position(c.triangulation, c.result.displacements, v);
-      whole.points.insert(whole.points.end(), x.data(), x.data() + d);
+      const std::vector<double> x = perturbation::position(c.triangulation, c.result.displacements, v);
+      whole.points.insert(whole.points.end(), x.begin(), x.end());
       whole.simplices.push_back(static_cast<std::uint32_t>(whole.simplices.size()));
     }
     sum += std::abs(volume(whole));

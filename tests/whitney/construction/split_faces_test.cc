@@ -51,9 +51,9 @@ TEST(SplitFaces, ACutSimplexIsItsChainsAndSidesShareThem) {
 TEST(SplitFaces, MirrorImagesArePositiveToo) {
   for (const bool mirrored : {false, true}) {
     const Submanifold manifold = named_submanifold("sphere");
-    Eigen::MatrixXd matrix = Eigen::MatrixXd::Identity(3, 3);
+    Matrix matrix = Matrix::identity(3);
     if (mirrored) matrix(1, 1) = -1;
-    const auto triangulation = coxeter::coxeter_a(3, 0.5).transformed(matrix, Eigen::VectorXd::Constant(3, 0.0123));
+    const auto triangulation = coxeter::coxeter_a(3, 0.5).transformed(matrix, std::vector<double>(3, 0.0123));
     const TriangulateResult result = triangulate(manifold, *manifold.bending(), triangulation, manifold.seed_points());
     const AmbientMesh ambient = ambient_mesh(result.complex, triangulation, result.displacements);
     EXPECT_GT(ambient.mesh.num_simplices(), 0u);
@@ -82,7 +82,7 @@ TEST(SplitFaces, CrossedEdgesAreThoseOfTheComplex) {
 TEST(SplitFaces, TakesTheComplexOfATraceWithoutDisplacements) {
   const NamedManifold m = sphere(2, 3, 1.0);
   const auto triangulation =
-      coxeter::coxeter_a(3, 0.3).transformed(Eigen::MatrixXd::Identity(3, 3), Eigen::VectorXd::Constant(3, 0.0123));
+      coxeter::coxeter_a(3, 0.3).transformed(Matrix::identity(3), std::vector<double>(3, 0.0123));
   const CellComplex complex = cell_complex(trace(m.function, triangulation, m.point));
   const AmbientMesh ambient = ambient_mesh(complex, triangulation, perturbation::DisplacementMap(3));
   EXPECT_EQ(ambient.mesh.num_simplices(), 24 * complex.num_cells(2));

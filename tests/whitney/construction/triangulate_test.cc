@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <coxeter/placement.h>
 #include <whitney/construction/triangulate.h>
 
 #include <algorithm>
@@ -123,7 +124,7 @@ INSTANTIATE_TEST_SUITE_P(Triangulate, Certified, testing::ValuesIn(kCases),
 TEST(Triangulate, MovedAndScaledCopiesHaveTheSameTopology) {
   for (const double unit : {1.0, 1e-9, 1e9})
     for (std::uint64_t rng_seed = 1; rng_seed <= 2; ++rng_seed) {
-      const Submanifold M = scale(rotate(closed_form::sphere(1, 3), random_rotation(3, rng_seed)), unit);
+      const Submanifold M = scale(rotate(closed_form::sphere(1, 3), coxeter::random_rotation(3, rng_seed)), unit);
       const TriangulateResult result =
           triangulate(M, *M.bending(), moved_coxeter(3, 0.3 * unit, rng_seed), M.seed_points());
       EXPECT_EQ(result.certificate.verdict, Verdict::kCertified) << unit << " " << result.certificate.reason;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <coxeter/base/eigen_view.h>
 #include <whitney/functions/projection.h>
 
 #include <cmath>
@@ -54,7 +55,7 @@ TEST(Projection, PrincipalDirectionsAreOrthonormalAndOrderedByVariance) {
   for (const int d : {4, 7, 10}) {
     const auto points = ellipsoid(d);
     const Projection p = principal_projection(points, d);
-    EXPECT_LT((p.A * p.A.transpose() - Eigen::Matrix4d::Identity()).norm(), 1e-12);
+    EXPECT_LT((as_eigen(p.A) * as_eigen(p.A).transpose() - Eigen::Matrix4d::Identity()).norm(), 1e-12);
     const auto placed = project(p, points);
     Eigen::Vector4d mean = Eigen::Vector4d::Zero(), variance = Eigen::Vector4d::Zero();
     for (std::size_t i = 0; i < placed.size(); ++i) {
@@ -75,14 +76,14 @@ TEST(Projection, PrincipalDirectionsDoNotDependOnUnitsOrPlace) {
   const auto points = ellipsoid(5);
   const Projection p = principal_projection(points, 5);
   for (const double scale : {1e-9, 1e9, 1e-160, 1e150}) {
-    EXPECT_LT((p.A - principal_projection(ellipsoid(5, scale), 5).A).norm(), 1e-9) << scale;
+    EXPECT_LT((as_eigen(p.A) - as_eigen(principal_projection(ellipsoid(5, scale), 5).A)).norm(), 1e-9) << scale;
   }
   auto moved = points;
   for (std::size_t i = 0; i < moved.size(); ++i) moved[i] += 100;
-  EXPECT_LT((p.A - principal_projection(moved, 5).A).norm(), 1e-9);
+  EXPECT_LT((as_eigen(p.A) - as_eigen(principal_projection(moved, 5).A)).norm(), 1e-9);
   // The point set as a whole mirrored: the directions keep their signs.
   for (double& x : moved) x = -x;
-  EXPECT_LT((p.A - principal_projection(moved, 5).A).norm(), 1e-9);
+  EXPECT_LT((as_eigen(p.A) - as_eigen(principal_projection(moved, 5).A)).norm(), 1e-9);
 }
 
 TEST(Projection, EqualVariancesGiveAFixedFrame) {
@@ -100,16 +101,16 @@ TEST(Projection, EqualVariancesGiveAFixedFrame) {
     return points;
   };
   const Projection p = principal_projection(torus(0), 4);
-  EXPECT_LT((p.A * p.A.transpose() - Eigen::Matrix4d::Identity()).norm(), 1e-12);
-  EXPECT_LT((p.A - principal_projection(torus(1e-6), 4).A).norm(), 1e-9);
+  EXPECT_LT((as_eigen(p.A) * as_eigen(p.A).transpose() - Eigen::Matrix4d::Identity()).norm(), 1e-12);
+  EXPECT_LT((as_eigen(p.A) - as_eigen(principal_projection(torus(1e-6), 4).A)).norm(), 1e-9);
   // Not along an axis, which would put the torus on a cylinder twice.
-  EXPECT_LT(p.A.row(3).cwiseAbs().maxCoeff(), 0.95);
+  EXPECT_LT(as_eigen(p.A).row(3).cwiseAbs().maxCoeff(), 0.95);
 }
 
 TEST(Projection, DegeneratePointsHaveAFrameToo) {
   const std::vector<double> points(4 * 5, 3.0);  // five times the same point
   const Projection p = principal_projection(points, 4);
-  EXPECT_LT((p.A * p.A.transpose() - Eigen::Matrix4d::Identity()).norm(), 1e-12);
+  EXPECT_LT((as_eigen(p.A) * as_eigen(p.A).transpose() - Eigen::Matrix4d::Identity()).norm(), 1e-12);
   for (const double x : project(p, points)) EXPECT_EQ(x, 0);
 }
 

@@ -58,7 +58,7 @@ TEST(EstimateBending, FindsNarrowPlacesThatAreNotCurved) {
 
 TEST(EstimateBending, FollowsTheManifold) {
   for (const double s : {1e-9, 1e9}) check(scale(closed_form::torus_of_revolution(2, 1), s), s, s);
-  check(translate(closed_form::sphere(2, 3), Eigen::Vector3d(5, -7, 11)), 1, 1);
+  check(translate(closed_form::sphere(2, 3), std::vector<double>{5, -7, 11}), 1, 1);
 }
 
 TEST(EstimateBending, IsDeterministic) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <coxeter/base/eigen_view.h>
 #include <whitney/manifolds/matrix_manifolds.h>
 
 #include <Eigen/Dense>
@@ -62,11 +63,11 @@ TEST(MatrixManifolds, ProjectorsAreProjectors) {
   const Submanifold M = grassmann(2, 4);
   const Feet feet = random_feet(M, 0.3, 50);
   for (std::size_t i = 0; i < feet.size(); ++i) {
-    const Eigen::MatrixXd A = symmetric_matrix(std::span(feet.points).subspan(i * 9, 9), 4, 2);
+    const Eigen::MatrixXd A = as_eigen(symmetric_matrix(std::span(feet.points).subspan(i * 9, 9), 4, 2));
     EXPECT_LT((A * A - A).norm(), 1e-13);
     EXPECT_NEAR(A.trace(), 2, 1e-14);
     // Distances are those of the matrices.
-    const Eigen::MatrixXd B = symmetric_matrix(std::span(feet.sources).subspan(i * 9, 9), 4, 2);
+    const Eigen::MatrixXd B = as_eigen(symmetric_matrix(std::span(feet.sources).subspan(i * 9, 9), 4, 2));
     EXPECT_NEAR((A - B).norm(), distance(&feet.points[i * 9], &feet.sources[i * 9], 9), 1e-14);
     const std::vector<double> again = symmetric_coordinates(A);
     EXPECT_LT(distance(again.data(), &feet.points[i * 9], 9), 1e-14);
@@ -115,7 +116,7 @@ TEST(MatrixManifolds, RejectBadSizes) {
   EXPECT_THROW(stiefel(0, 3), InvalidInput);
   EXPECT_THROW(special_orthogonal(1), InvalidInput);
   EXPECT_THROW(symmetric_matrix(std::vector<double>(4), 3, 1), InvalidInput);
-  EXPECT_THROW(symmetric_coordinates(Eigen::MatrixXd(2, 3)), InvalidInput);
+  EXPECT_THROW(symmetric_coordinates(Matrix(2, 3)), InvalidInput);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <coxeter/placement.h>
 #include <whitney/manifolds/submanifold_combinators.h>
 
 #include <cmath>
@@ -20,14 +21,14 @@ TEST(SubmanifoldCombinators, Feet) {
   check_feet(product(circle, circle), 1, 1);
   check_feet(product(closed_form::sphere(2, 3), scale(circle, 0.5)), 1, 0.5);
   check_feet(embed(torus, 5), 2.5, 0.5);
-  check_feet(rotate(embed(torus, 4), random_rotation(4, 1)), 2.5, 0.5);
-  check_feet(translate(torus, Eigen::Vector3d(1, -2, 3)), 5, 0.5);
-  check_feet(rotate(klein_bottle(), random_rotation(4, 2)), 3, 1);
+  check_feet(rotate(embed(torus, 4), coxeter::random_rotation(4, 1)), 2.5, 0.5);
+  check_feet(translate(torus, std::vector<double>{1, -2, 3}), 5, 0.5);
+  check_feet(rotate(klein_bottle(), coxeter::random_rotation(4, 2)), 3, 1);
   for (const double s : {1e-9, 1e9}) {
     check_feet(scale(torus, s), 2.5 * s, 0.5 * s);
     check_feet(scale(klein_bottle(), s), 3 * s, s);
   }
-  check_bad_points(rotate(embed(torus, 4), random_rotation(4, 1)));
+  check_bad_points(rotate(embed(torus, 4), coxeter::random_rotation(4, 1)));
   check_bad_points(embed(torus, 4));
   check_bad_points(product(circle, circle));
 }
@@ -57,8 +58,8 @@ TEST(SubmanifoldCombinators, BendingFollows) {
   const Submanifold circle = closed_form::sphere(1, 2);
   EXPECT_EQ(scale(circle, 3).bending()->reach, 3);
   EXPECT_EQ(scale(circle, 3).bending()->curvature_radius, 3);
-  EXPECT_EQ(rotate(circle, random_rotation(2, 1)).bending()->reach, 1);
-  EXPECT_EQ(translate(circle, Eigen::Vector2d(1, 1)).bending()->source, Bending::Source::kProven);
+  EXPECT_EQ(rotate(circle, coxeter::random_rotation(2, 1)).bending()->reach, 1);
+  EXPECT_EQ(translate(circle, std::vector<double>{1, 1}).bending()->source, Bending::Source::kProven);
   const Submanifold guessed = with_bending(circle, {0.25, 0.5, Bending::Source::kEstimated});
   EXPECT_EQ(product(circle, guessed).bending()->source, Bending::Source::kEstimated);
   EXPECT_EQ(product(circle, guessed).bending()->reach, 0.25);
@@ -87,7 +88,7 @@ TEST(SubmanifoldCombinators, AProvenReachStaysALowerBound) {
 
 TEST(SubmanifoldCombinators, SeedsLieOnTheManifold) {
   const Submanifold M =
-      translate(rotate(product(closed_form::sphere(1, 2), closed_form::sphere(2, 3)), random_rotation(5, 4)),
+      translate(rotate(product(closed_form::sphere(1, 2), closed_form::sphere(2, 3)), coxeter::random_rotation(5, 4)),
                 Eigen::VectorXd::LinSpaced(5, -1, 1));
   const std::vector<double> seed = M.seed_points();
   ASSERT_EQ(seed.size(), 5);
@@ -100,11 +101,11 @@ TEST(SubmanifoldCombinators, SeedsLieOnTheManifold) {
 TEST(SubmanifoldCombinators, RejectBadInput) {
   const Submanifold circle = closed_form::sphere(1, 2);
   EXPECT_THROW(embed(circle, 1), InvalidInput);
-  EXPECT_THROW(rotate(circle, Eigen::MatrixXd::Identity(3, 3)), InvalidInput);
-  EXPECT_THROW(rotate(circle, 2 * Eigen::MatrixXd::Identity(2, 2)), InvalidInput);
-  EXPECT_THROW(rotate(circle, Eigen::MatrixXd::Constant(2, 2, NAN)), InvalidInput);
-  EXPECT_THROW(translate(circle, Eigen::Vector3d::Zero()), InvalidInput);
-  EXPECT_THROW(translate(circle, Eigen::Vector2d(0, INFINITY)), InvalidInput);
+  EXPECT_THROW(rotate(circle, Matrix::identity(3)), InvalidInput);
+  EXPECT_THROW(rotate(circle, Matrix(2, 2, {2, 0, 0, 2})), InvalidInput);
+  EXPECT_THROW(rotate(circle, Matrix(2, 2, std::vector<double>(4, NAN))), InvalidInput);
+  EXPECT_THROW(translate(circle, std::vector<double>(3)), InvalidInput);
+  EXPECT_THROW(translate(circle, std::vector<double>{0, INFINITY}), InvalidInput);
   for (const double s : {0.0, -1.0, double{NAN}, double{INFINITY}}) EXPECT_THROW(scale(circle, s), InvalidInput);
 }
 

@@ -12,8 +12,10 @@
 
 #include <gtest/gtest.h>
 
+#include <coxeter/base/eigen_view.h>
 #include <coxeter/base/error.h>
 #include <coxeter/faces/faces.h>
+#include <coxeter/placement.h>
 #include <whitney/cells/cell_complex.h>
 #include <whitney/cells/strata.h>
 #include <whitney/cells/subdivide.h>
@@ -346,7 +348,7 @@ TEST(Boundary, MovedCopiesHaveTheSameStrata) {
         Setting{sphere_function(4, 1), coordinates(4, 2), {.6, .6, .6, .6}, 0.5, {{3, 1}, {2, 2}, {1, 1}}}}) {
     const int d = f.ambient_dim();
     for (int run = 0; run < 4; ++run) {
-      const Eigen::MatrixXd Q = random_rotation(d, 7 + run);
+      const Eigen::MatrixXd Q = as_eigen(coxeter::random_rotation(d, 7 + run));
       Eigen::VectorXd b(d);
       for (int c = 0; c < d; ++c) b[c] = std::cos(1.0 + c + 3 * run);
       const Eigen::VectorXd start = Q * Eigen::Map<const Eigen::VectorXd>(seed.data(), d) + b;

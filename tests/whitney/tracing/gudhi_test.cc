@@ -9,6 +9,7 @@
 #include <gudhi/Coxeter_triangulation.h>
 #include <gudhi/Implicit_manifold_intersection_oracle.h>
 #include <gudhi/Manifold_tracing.h>
+#include <coxeter/base/eigen_view.h>
 #include <whitney/tracing/trace.h>
 
 #include <set>
@@ -66,7 +67,7 @@ void expect_same_simplices(const Function& f, const std::vector<double>& seed, d
   const int d = f.ambient_dim();
   const auto ours = coxeter::coxeter_a(d, edge_length);
   PeerTriangulation theirs(d);
-  theirs.change_matrix(ours.linear());
+  theirs.change_matrix(as_eigen(ours.linear()));
   const PeerFunction function{f, seed};
   peer::Manifold_tracing<PeerTriangulation>::Out_simplex_map map;
   peer::manifold_tracing_algorithm(std::vector<Eigen::VectorXd>{function.seed()}, theirs, peer::make_oracle(function),
@@ -95,7 +96,7 @@ void expect_same_boundary(const Function& f, const Function& g, const std::vecto
   const int d = f.ambient_dim();
   const auto ours = coxeter::coxeter_a(d, edge_length);
   PeerTriangulation theirs(d);
-  theirs.change_matrix(ours.linear());
+  theirs.change_matrix(as_eigen(ours.linear()));
   const PeerFunction function{f, seed};
   const PeerFunction domain{make_function(d, 1,
                                           [&](auto x, auto v) {

@@ -129,7 +129,7 @@ TEST(Trace, LatticeVerticesOnTheSphere) {
 TEST(Trace, TheMotionOfAnExactPositionByRoundingErrorsChangesNothing) {
   for (double shift : {1e-16, 3e-16, 1e-15, 1e-14, 1e-13}) {
     TraceCase c{"nearly exact", sphere(2, 3, 5).function, sphere(2, 3, 5).point, std::sqrt(3.0), 2, 1, {"Z", "0", "Z"}};
-    c.function = translate(c.function, Eigen::Vector3d(shift, 0.7 * shift, 0.49 * shift));
+    c.function = translate(c.function, std::vector{shift, 0.7 * shift, 0.49 * shift});
     expect_theory(c, coxeter::freudenthal(3, c.edge_length));
   }
 }

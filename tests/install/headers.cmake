@@ -1,0 +1,36 @@
+# Installs BUILD_DIR below WORK_DIR and compiles each installed header alone. What a compiler reads for it may only be
+# in the installed tree, or of the compiler and its standard library: so the headers are closed under inclusion, and a
+# user needs none of the libraries that ours is built with.
+foreach(variable BUILD_DIR WORK_DIR CXX CONFIG)
+  if("${${variable}}" STREQUAL "")
+    message(FATAL_ERROR "${variable} is not set")
+  endif()
+endforeach()
+file(REMOVE_RECURSE ${WORK_DIR})
+file(MAKE_DIRECTORY ${WORK_DIR})
+execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${WORK_DIR}/prefix --config ${CONFIG}
+                --component development OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+set(root ${WORK_DIR}/prefix/include/whitney-toolkit)
+file(GLOB_RECURSE headers RELATIVE ${root} ${root}/*.h)
+list(LENGTH headers count)
+if(count LESS 30)
+  message(FATAL_ERROR "only ${count} headers were installed")
+endif()
+set(failures "")
+foreach(header IN LISTS headers)
+  if(header STREQUAL "whitney/io/openmesh.h")
+    continue()  # the adaptor: it needs OpenMesh by purpose
+  endif()
+  file(WRITE ${WORK_DIR}/alone.cc "#include <${header}>\n#include <${header}>\n")
+  execute_process(COMMAND ${CXX} -std=c++20 -Wall -Wextra -Werror -fsyntax-only -H -I${root} ${WORK_DIR}/alone.cc
+                  RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT result EQUAL 0)
+    string(APPEND failures "${header} does not compile alone:\n${output}\n")
+  elseif(output MATCHES "/(eigen3|Eigen|boost|CGAL|OpenMesh|ginac|nlohmann|tbb)/[^\n]*|/gmp(xx)?\\.h")
+    string(APPEND failures "${header} includes ${CMAKE_MATCH_0}\n")
+  endif()
+endforeach()
+if(failures)
+  message(FATAL_ERROR "${failures}")
+endif()
+message(STATUS "${count} headers stand alone")

@@ -1,0 +1,47 @@
+# Builds the program for any x86-64 (x86-64-v2, and x86-64 without AVX) and compares the meshes it writes with those of
+# NATIVE_PROGRAM, byte by byte. On other processors: the compiler's default only.
+foreach(variable SOURCE_DIR WORK_DIR GENERATOR CXX NATIVE_PROGRAM)
+  if("${${variable}}" STREQUAL "")
+    message(FATAL_ERROR "${variable} is not set")
+  endif()
+endforeach()
+cmake_host_system_information(RESULT machine QUERY OS_PLATFORM)
+set(flag_sets "default=")
+if(machine MATCHES "x86_64|AMD64")
+  set(flag_sets "v2=-march=x86-64-v2" "no_avx=-march=x86-64 -mno-avx")
+endif()
+set(problems "trace:flat_torus_r4" "trace:cut_torus" "trace:gyroid" "trace:klein_quartic"
+             "triangulate:sphere" "triangulate:circle_r5" "triangulate:projective_plane")
+file(MAKE_DIRECTORY ${WORK_DIR})
+foreach(flag_set IN LISTS flag_sets)
+  string(REGEX MATCH "^([^=]*)=(.*)$" matched "${flag_set}")
+  set(name ${CMAKE_MATCH_1})
+  set(build ${WORK_DIR}/${name})
+  execute_process(COMMAND ${CMAKE_COMMAND} -S ${SOURCE_DIR} -B ${build} -G ${GENERATOR} -DCMAKE_BUILD_TYPE=Release
+                          -DCMAKE_CXX_COMPILER=${CXX} "-DCMAKE_CXX_FLAGS=${CMAKE_MATCH_2}" -DWHITNEY_BUILD_TESTS=OFF
+                  COMMAND_ERROR_IS_FATAL ANY OUTPUT_QUIET)
+  execute_process(COMMAND ${CMAKE_COMMAND} --build ${build} COMMAND_ERROR_IS_FATAL ANY OUTPUT_QUIET)
+  foreach(problem IN LISTS problems)
+    string(REPLACE ":" ";" parts ${problem})
+    list(GET parts 0 command)
+    list(GET parts 1 file)
+    foreach(side native portable)
+      set(program ${NATIVE_PROGRAM})
+      if(side STREQUAL "portable")
+        set(program ${build}/bin/whitney)
+      endif()
+      execute_process(COMMAND ${program} ${command} ${SOURCE_DIR}/examples/problems/${file}.json
+                              -o ${WORK_DIR}/${file}_${side}.noff
+                      RESULT_VARIABLE result OUTPUT_QUIET ERROR_VARIABLE error)
+      if(NOT result EQUAL 0)
+        message(FATAL_ERROR "${program} ${command} ${file}: ${result}\n${error}")
+      endif()
+    endforeach()
+    execute_process(COMMAND ${CMAKE_COMMAND} -E compare_files ${WORK_DIR}/${file}_native.noff
+                            ${WORK_DIR}/${file}_portable.noff RESULT_VARIABLE different)
+    if(different)
+      message(FATAL_ERROR "${name}: ${command} ${file} gives other bytes")
+    endif()
+    message(STATUS "${name}: ${command} ${file}: the same bytes")
+  endforeach()
+endforeach()
