@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <functional>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include <coxeter/base/error.h>
 #include <whitney/cells/strata.h>
 #include <whitney/topology/mesh.h>
 
@@ -78,9 +78,9 @@ struct GluedMesh {
 
 /// The pieces do not agree at a seam: different numbers of corners, arcs or loops, or too far apart. The message names
 /// the seam, what was found on both sides, the distance and the place.
-class SeamMismatch : public std::runtime_error {
+class SeamMismatch : public Error {
  public:
-  using std::runtime_error::runtime_error;
+  using Error::Error;
 };
 
 /// Glues curves (n = 1) or surfaces (n = 2), each traced in its own chart, along their seams.
