@@ -15,24 +15,9 @@
 #include <coxeter/simplex.h>
 #include <whitney/functions/domain.h>
 #include <whitney/tracing/crossing_point.h>
+#include <whitney/tracing/lattice_values.h>
 
 namespace whitney {
-
-/// f and the inequalities at the vertices of a triangulation, numbered in the order in which they were asked for.
-class LatticeValues {
- public:
-  static constexpr std::uint32_t kUnreachable = 0xffffffff;
-
-  virtual ~LatticeValues() = default;
-  /// The number of vertex z; what is not known there yet is evaluated. kUnreachable where f has no value.
-  virtual std::uint32_t vertex(std::span<const std::int32_t> z) = 0;
-  /// -g_j for every inequality of the domain, then the k values of f.
-  virtual void values(std::uint32_t vertex, double* out) const = 0;
-  /// Domain::set_mask at the vertex. Invalidated by vertex().
-  virtual const std::uint64_t* mask(std::uint32_t vertex) const = 0;
-  /// The union of all masks so far.
-  virtual const std::uint64_t* mask_of_all() const = 0;
-};
 
 /// The boundary of a traced manifold: f = 0, g >= 0.
 ///

@@ -19,8 +19,8 @@ namespace whitney {
 /// "what is NaN at (x_1, .., x_d)", or "infinite".
 OracleError not_finite(const std::string& what, double value, std::span<const double> x);
 
-/// f and the inequalities at the vertices of a triangulation, each evaluated once; vertices are numbered in the order in
-/// which they were asked for.
+/// f and the inequalities at the vertices of a triangulation, each evaluated once; vertices are numbered in the order
+/// in which they were asked for.
 ///
 /// A record of the table holds, beside the coordinates: the k values of f, those of the given inequalities, the mask of
 /// the inequalities that are violated. Pointers into it are invalidated by new vertices.

@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include <Eigen/LU>
 #include <Eigen/QR>
+
+#include <whitney/tracing/lattice_values.h>
 
 namespace whitney {
 namespace {
@@ -47,16 +48,6 @@ bool scale_rows(RowMajor& J, VectorXd& f) {
 }
 
 }  // namespace
-
-OracleError not_finite(const std::string& what, double value, std::span<const double> x) {
-  std::string at;
-  char number[32];
-  for (std::size_t c = 0; c < x.size(); ++c) {
-    std::snprintf(number, sizeof number, "%s%.17g", c ? ", " : "", x[c]);
-    at += number;
-  }
-  return OracleError(what + " is " + (std::isnan(value) ? "NaN" : "infinite") + " at (" + at + ")");
-}
 
 SeedStarter::SeedStarter(const Function& f, const Domain& domain, const coxeter::Triangulation& triangulation,
                          Inside inside)

@@ -8,16 +8,12 @@
 #include <utility>
 #include <vector>
 
-#include <coxeter/base/error.h>
 #include <coxeter/triangulation.h>
 #include <whitney/functions/domain.h>
 #include <whitney/functions/function.h>
 #include <whitney/tracing/seed_search.h>
 
 namespace whitney {
-
-/// "what is NaN at (x_1, .., x_d)", or "infinite".
-OracleError not_finite(const std::string& what, double value, std::span<const double> x);
 
 /// Where a trace may start for one seed point.
 struct SeedStart {
