@@ -220,9 +220,9 @@ TriangulateResult triangulate(const Submanifold& manifold, const Bending& bendin
       repair_options.max_displacement = options.displacement_fraction * width / 2;
       repair_options.rng_seed = options.rng_seed;
       repair_options.max_rounds = options.max_rounds;
-      repair_options.max_simplices = options.run.max_simplices;
+      repair_options.run.max_simplices = options.run.max_simplices;
       repair_options.region = make_region();
-      repair_options.keep_going = keep_going;
+      repair_options.run.progress = [&](const Progress&) { return keep_going(); };
       result.rounds = perturbation::repair(near, starts, repair_options).rounds;
     } else if (options.scheme == TriangulateOptions::Scheme::kSequential && !starts.empty()) {
       perturbation::SequentialOptions sequential_options;
@@ -230,9 +230,9 @@ TriangulateResult triangulate(const Submanifold& manifold, const Bending& bendin
       sequential_options.min_distance = 1;
       sequential_options.rng_seed = options.rng_seed;
       sequential_options.max_rounds = options.max_rounds;
-      sequential_options.max_simplices = options.run.max_simplices;
+      sequential_options.run.max_simplices = options.run.max_simplices;
       sequential_options.region = make_region();
-      sequential_options.keep_going = keep_going;
+      sequential_options.run.progress = [&](const Progress&) { return keep_going(); };
       for (const auto& round : perturbation::sequential(near, starts, sequential_options).rounds)
         result.rounds.push_back({round.simplices, round.failing, round.worst_margin, false});
     }
@@ -257,12 +257,12 @@ TriangulateResult triangulate(const Submanifold& manifold, const Bending& bendin
   near.displace(displacements);
   const std::vector<std::uint32_t> starts = find_starts(near);
   HitWalkOptions trace_options;
-  trace_options.max_simplices = options.run.max_simplices;
+  trace_options.run.max_simplices = options.run.max_simplices;
   trace_options.region = make_region();
   // What was found by then is wanted even when the search was stopped, but not at any price.
   const bool stopped_before = stopped();
   const double deadline = 1.25 * watch.seconds() + 1;
-  trace_options.keep_going = [&] { return stopped_before ? watch.seconds() < deadline : not_cancelled(); };
+  trace_options.run.progress = [&](const Progress&) { return stopped_before ? watch.seconds() < deadline : not_cancelled(); };
   const HitWalk trace = perturbation::walk_hit_facets(near, starts, trace_options);
   if (!trace.complete && !stopped()) result.stop_reason = StopReason::kMaxSimplices;
   result.certificate = perturbation::certify(near, trace, width);
