@@ -53,13 +53,14 @@ class CertificateProver {
   Proof prove(const double* const* vertices, const FootView& foot);
 
  private:
+  /// Floating-point inverses of the k x k matrices of the P_j - P_0, for the k-faces that floating point takes to be
+  /// hit. False, with the reason in `proof`, when one is singular.
+  bool guess_inverses(Proof& proof);
+
   Certificate& certificate_;
   /// For every k-face, its (k-1)-faces: k + 1 numbers each.
   std::vector<std::uint32_t> subfaces_;
+  std::vector<std::vector<double>> inverses_;  ///< per k-face: k x k
 };
-
-/// Whether interval arithmetic proves that every point within `error` of `point` (d) lies in the interior of the
-/// d-simplex with these vertices (d + 1 pointers to d numbers).
-bool proved_inside(const double* const* vertices, int ambient_dim, const double* point, double error);
 
 }  // namespace whitney::perturbation

@@ -17,7 +17,7 @@ using coxeter::LatticeVertex;
 double up(double x) { return std::nextafter(x, std::numeric_limits<double>::infinity()); }
 
 /// An upper bound of abs(a - b).
-double distance_above(std::span<const double> a, std::span<const double> b) {
+double difference_above(std::span<const double> a, std::span<const double> b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
     const double difference = up(std::abs(a[i] - b[i]));
@@ -113,7 +113,7 @@ EmbeddingCheck check_embedding(const DisplacementMap& displacements, double boun
   };
   for (std::size_t i = 0; i < n; ++i) {
     const LatticeVertex& v = displacements.vertices()[i];
-    const double length = distance_above(displacements.displacement(i), zero);
+    const double length = difference_above(displacements.displacement(i), zero);
     check.largest_displacement = std::max(check.largest_displacement, length);
     compare(length, v, v);
   }
@@ -127,12 +127,12 @@ EmbeddingCheck check_embedding(const DisplacementMap& displacements, double boun
     const auto u = displacements.displacement(i);
     if (by_neighbours) {
       for_each_upper_neighbour(v, [&](const LatticeVertex& w) {
-        if (const auto other = displacements.find(w); !other.empty()) compare(distance_above(u, other), v, w);
+        if (const auto other = displacements.find(w); !other.empty()) compare(difference_above(u, other), v, w);
       });
     } else {
       for (std::size_t j = 0; j < i; ++j) {
         const LatticeVertex& w = displacements.vertices()[j];
-        if (adjacent(v, w)) compare(distance_above(u, displacements.displacement(j)), w, v);
+        if (adjacent(v, w)) compare(difference_above(u, displacements.displacement(j)), w, v);
       }
     }
   }

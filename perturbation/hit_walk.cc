@@ -3,7 +3,15 @@
 
 #include <algorithm>
 
+#include <coxeter/base/run_watch.h>
+
 namespace whitney::perturbation {
+namespace {
+
+/// The limits are looked at once in so many simplices.
+constexpr std::size_t kAskEvery = 32;
+
+}  // namespace
 
 void canonical_order(const PerturbedTriangulation& near, std::vector<std::uint32_t>& simplices) {
   const int d = near.ambient_dim();
@@ -32,11 +40,11 @@ HitWalk walk_hit_facets(PerturbedTriangulation& near, std::span<const std::uint3
     trace.simplices.push_back(s);
   };
   for (const std::uint32_t s : starts) reach(s);
+  RunWatch watch(options.run, "walk");
   for (std::size_t next = 0; next < trace.simplices.size(); ++next) {
-    if (next >= options.max_simplices || (next % 32 == 31 && options.keep_going && !options.keep_going())) {
-      trace.complete = false;
-      break;
-    }
+    if (next >= options.run.max_simplices) watch.stop(StopReason::kMaxSimplices);
+    if (next % kAskEvery == kAskEvery - 1) watch.stopped_now(next, near.oracle_calls());
+    if (watch.reason() != StopReason::kNone) break;
     const std::uint32_t s = trace.simplices[next];
     const std::uint32_t hit = near.evaluate(s, options.enough, options.with_midpoints).hit_facets;
     for (int q = 0; q <= d; ++q)
@@ -44,7 +52,9 @@ HitWalk walk_hit_facets(PerturbedTriangulation& near, std::span<const std::uint3
         if (const std::uint32_t other = near.neighbour(s, q); !options.region || options.region(near, other))
           reach(other);
   }
-  if (!trace.complete) trace.simplices.resize(std::min(trace.simplices.size(), options.max_simplices));
+  trace.stop_reason = watch.reason();
+  trace.complete = trace.stop_reason == StopReason::kNone;
+  if (!trace.complete) trace.simplices.resize(std::min(trace.simplices.size(), options.run.max_simplices));
   canonical_order(near, trace.simplices);
   return trace;
 }

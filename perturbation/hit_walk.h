@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <span>
 #include <vector>
 
+#include <coxeter/base/run_control.h>
 #include <perturbation/perturbed_triangulation.h>
 
 namespace whitney::perturbation {
@@ -20,18 +20,18 @@ struct HitWalkOptions {
   double enough = 1.02;
   /// Try the feet of the midpoints of edges too before a lower margin is accepted.
   bool with_midpoints = true;
-  std::size_t max_simplices = std::numeric_limits<std::size_t>::max();
   Region region{};
-  /// Asked every few dozen simplices; false stops the trace.
-  std::function<bool()> keep_going;
+  /// Limits; looked at every few dozen simplices. max_simplices counts d-simplices; the phase is "walk".
+  RunControl run{};
 };
 
 /// The d-simplices that a walk across hit facets reaches. One that is entered but hit for none of its own feet is among
 /// them, and ends the walk there.
 struct HitWalk {
   std::vector<std::uint32_t> simplices;  ///< in canonical order, see canonical_order
-  bool complete = true;                  ///< the walk ended by itself
-  Region region{};                       ///< of the options: it did not go further than that
+  StopReason stop_reason = StopReason::kNone;
+  bool complete = true;  ///< the walk ended by itself: nothing stopped it
+  Region region{};       ///< of the options: it did not go further than that
 };
 
 /// Walks from the start simplices across hit facets: V of the global theorem, if all it finds is certified.

@@ -110,6 +110,10 @@ BarycentricBounds barycentric_bounds(const double* const* vertices, int ambient_
   return bounds;
 }
 
+bool proved_inside(const double* const* vertices, int ambient_dim, const double* point, double error) {
+  return barycentric_bounds(vertices, ambient_dim, point, error).inside();
+}
+
 std::vector<std::uint32_t> proved_cover(PerturbedTriangulation& near, std::span<const double> point, double error,
                                         std::size_t max_simplices) {
   const int d = near.ambient_dim();
@@ -149,9 +153,8 @@ std::vector<bool> proved_in_union(PerturbedTriangulation& near, std::span<const 
   std::vector<bool> proved;
   for (std::size_t i = 0; i < errors.size(); ++i) {
     const auto cover = proved_cover(near, points.subspan(i * d, d), errors[i]);
-    proved.push_back(!cover.empty() && std::all_of(cover.begin(), cover.end(), [&](std::uint32_t s) {
-                       return s < member.size() && member[s];
-                     }));
+    proved.push_back(!cover.empty() && std::all_of(cover.begin(), cover.end(),
+                                                   [&](std::uint32_t s) { return s < member.size() && member[s]; }));
   }
   return proved;
 }

@@ -25,9 +25,13 @@ struct BarycentricBounds {
 /// An infinite slack when nothing can be proved: the simplex is flat, or numbers are out of range.
 BarycentricBounds barycentric_bounds(const double* const* vertices, int ambient_dim, const double* point, double error);
 
+/// Whether interval arithmetic proves that every point within `error` of `point` (d) lies in the interior of the
+/// d-simplex with these vertices.
+bool proved_inside(const double* const* vertices, int ambient_dim, const double* point, double error);
+
 /// d-simplices of T~ whose union is proved to hold every point within `error` (a length, >= 0) of `point` (d); provided
-/// that T~ is embedded, see CertificateReport::embedded. One when the ball is inside a simplex; those around a face when
-/// the ball touches it. Empty when nothing can be proved with `max_simplices`.
+/// that T~ is embedded, see CertificateReport::embedded. One when the ball is inside a simplex; those around a face
+/// when the ball touches it. Empty when nothing can be proved with `max_simplices`.
 ///
 /// Why: S holds, with every simplex, its neighbours across the facets that the ball is not proved to stay clear of. So
 /// the ball, which is connected, does not meet the boundary of the union of S; and it is proved to hold a point of one
@@ -36,8 +40,8 @@ std::vector<std::uint32_t> proved_cover(PerturbedTriangulation& near, std::span<
                                         std::size_t max_simplices = 200);
 
 /// For every one of m points (m x d), known up to errors (m lengths): whether it is proved to lie in the union of the
-/// given d-simplices. For the simplices of a trace that is certified and the feet of the seeds: whether the component of
-/// M that the foot lies on is one of those the verdict speaks of.
+/// given d-simplices. For the simplices of a trace that is certified and the feet of the seeds: whether the component
+/// of M that the foot lies on is one of those the verdict speaks of.
 std::vector<bool> proved_in_union(PerturbedTriangulation& near, std::span<const std::uint32_t> simplices,
                                   std::span<const double> points, std::span<const double> errors);
 

@@ -6,6 +6,7 @@
 
 #include <coxeter/base/error.h>
 #include <coxeter/base/keyed_random.h>
+#include <coxeter/base/run_watch.h>
 
 namespace whitney::perturbation {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 /// Rounds in which the trace grows are not counted against max_rounds; this ends them all the same.
 constexpr int kMostRounds = 1000;
 
-/// keep_going is asked once in so many steps.
+/// The limits are looked at once in so many steps.
 constexpr std::size_t kAskEvery = 16;
 
 class Repairer {
@@ -22,6 +23,7 @@ class Repairer {
       : near_(near),
         starts_(starts.begin(), starts.end()),
         options_(options),
+        watch_(options.run, "perturb"),
         d_(near.ambient_dim()),
         step_(d_),
         fallback_(near.codim()) {
@@ -31,67 +33,95 @@ class Repairer {
   }
 
   RepairResult run() {
-    RepairResult result;
-    if (starts_.empty()) return result;
+    if (starts_.empty()) return std::move(result_);
     int settled = 0;  // rounds that did not find the trace much larger than the one before did
-    for (int round = 0;; ++round) {
-      // A polish that left as many failing as it found has run into places where every move uncovers others that fail
-      // (exact zeros all around, so that the trace ended there): sweeps get through.
-      const std::size_t last = result.rounds.size();
-      const bool stuck = last >= 2 && result.rounds[last - 1].polish && result.rounds[last - 2].polish &&
-                         result.rounds[last - 1].failing >= result.rounds[last - 2].failing;
-      bool polish = settled >= options_.sweeps && !stuck;
+    for (round_ = 0;; ++round_) {
+      bool polish = settled >= options_.sweeps && !is_stuck();
       const double target = settled < 2 ? options_.first_target : options_.target;
-      HitWalkOptions trace_options;
-      trace_options.enough = polish ? options_.accept : target;
-      trace_options.with_midpoints = polish;
-      trace_options.max_simplices = options_.max_simplices;
-      trace_options.region = options_.region;
-      trace_options.keep_going = options_.keep_going;
-      keep_starts_hit();
-      const HitWalk trace = walk_hit_facets(near_, starts_, trace_options);
-      RepairRound record;
-      record.simplices = trace.simplices.size();
-      record.worst_margin = std::numeric_limits<double>::infinity();
-      failing_.clear();
-      for (const std::uint32_t s : trace.simplices) {
-        const double margin = near_.evaluate(s, 0).margin;
-        record.worst_margin = std::min(record.worst_margin, margin);
-        if (margin < options_.accept || !near_.evaluate(s, 0).is_hit()) failing_.push_back(s);
-      }
-      record.failing = failing_.size();
+      const HitWalk trace = walk(polish, target);
+      const bool grew = record(trace);
       // Where a trace ended at exact zeros, the next one goes on; what it finds is swept before it is polished.
-      const bool grew =
-          last > 0 && static_cast<double>(record.simplices) > 1.1 * static_cast<double>(result.rounds.back().simplices);
       if (grew)
         polish = false;
       else
         ++settled;
-      record.polish = polish;
-      result.rounds.push_back(record);
-      result.complete = trace.complete;
-      result.all_accepted = trace.complete && failing_.empty();
-      if (result.all_accepted || !trace.complete || settled > options_.max_rounds || round > kMostRounds) return result;
-      if (polish && static_cast<double>(failing_.size()) > options_.hopeless * static_cast<double>(record.simplices))
-        return result;
-      round_ = round;
-      if (polish) {
-        reached_.assign(near_.num_simplices(), 0);
-        for (const std::uint32_t s : trace.simplices) reached_[s] = 1;
-        for (const std::uint32_t s : failing_) {
-          polish_simplex(s, result);
-          if (!result.complete) return result;
-        }
-      } else {
-        for (const std::uint32_t s : trace.simplices) {
-          if (!going(result)) return result;
-          push(s, target);
-        }
-      }
+      RepairRound& round = result_.rounds.back();
+      round.polish = polish;
+      result_.all_accepted = trace.complete && failing_.empty();
+      if (!trace.complete) return stop(watch_.reason() != StopReason::kNone ? watch_.reason() : trace.stop_reason);
+      if (result_.all_accepted || settled > options_.max_rounds || round_ > kMostRounds) return std::move(result_);
+      if (polish && static_cast<double>(failing_.size()) > options_.hopeless * static_cast<double>(round.simplices))
+        return std::move(result_);
+      if (!(polish ? polish_all(trace) : sweep(trace, target))) return stop(watch_.reason());
     }
   }
 
  private:
+  RepairResult stop(StopReason reason) {
+    result_.stop_reason = reason;
+    result_.complete = false;
+    return std::move(result_);
+  }
+
+  /// A polish that left as many failing as it found has run into places where every move uncovers others that fail
+  /// (exact zeros all around, so that the trace ended there): sweeps get through.
+  bool is_stuck() const {
+    const std::size_t last = result_.rounds.size();
+    return last >= 2 && result_.rounds[last - 1].polish && result_.rounds[last - 2].polish &&
+           result_.rounds[last - 1].failing >= result_.rounds[last - 2].failing;
+  }
+
+  /// A trace from the starts, with as many feet as what follows needs.
+  HitWalk walk(bool polish, double target) {
+    HitWalkOptions walk_options;
+    walk_options.enough = polish ? options_.accept : target;
+    walk_options.with_midpoints = polish;
+    walk_options.region = options_.region;
+    walk_options.run.max_simplices = options_.run.max_simplices;
+    walk_options.run.progress = [this](const Progress& progress) {
+      return !watch_.stopped_now(progress.simplices, progress.evaluations);
+    };
+    keep_starts_hit();
+    return walk_hit_facets(near_, starts_, walk_options);
+  }
+
+  /// Appends the round of this trace, and collects its failing simplices. Whether it reached much further than the one
+  /// before.
+  bool record(const HitWalk& trace) {
+    RepairRound round;
+    round.simplices = trace.simplices.size();
+    round.worst_margin = std::numeric_limits<double>::infinity();
+    failing_.clear();
+    for (const std::uint32_t s : trace.simplices) {
+      const double margin = near_.evaluate(s, 0).margin;
+      round.worst_margin = std::min(round.worst_margin, margin);
+      if (margin < options_.accept || !near_.evaluate(s, 0).is_hit()) failing_.push_back(s);
+    }
+    round.failing = failing_.size();
+    const bool grew = !result_.rounds.empty() &&
+                      static_cast<double>(round.simplices) > 1.1 * static_cast<double>(result_.rounds.back().simplices);
+    result_.rounds.push_back(round);
+    return grew;
+  }
+
+  /// False when a limit stopped it.
+  bool sweep(const HitWalk& trace, double target) {
+    for (const std::uint32_t s : trace.simplices) {
+      if (!going()) return false;
+      push(s, target);
+    }
+    return true;
+  }
+
+  /// False when a limit stopped it.
+  bool polish_all(const HitWalk& trace) {
+    reached_.assign(near_.num_simplices(), 0);
+    for (const std::uint32_t s : trace.simplices) reached_[s] = 1;
+    for (const std::uint32_t s : failing_)
+      if (!polish_simplex(s)) return false;
+    return true;
+  }
+
   /// A start that moves have taken off the manifold would end the trace at once: the nearest hit simplex replaces it.
   /// One that was never hit has been searched around already.
   void keep_starts_hit() {
@@ -104,11 +134,7 @@ class Repairer {
     }
   }
 
-  bool going(RepairResult& result) {
-    if (++count_ % kAskEvery != 0 || !options_.keep_going || options_.keep_going()) return true;
-    result.complete = false;
-    return false;
-  }
+  bool going() { return ++count_ % kAskEvery != 0 || !watch_.stopped_now(near_.num_simplices(), near_.oracle_calls()); }
 
   /// Random numbers of this round for the simplex s.
   coxeter::KeyedRandom random_of(std::uint32_t s) {
@@ -235,12 +261,14 @@ class Repairer {
     return false;
   }
 
-  void polish_simplex(std::uint32_t s, RepairResult& result) {
+  /// Trials until s is accepted or given up. False when a limit stopped it.
+  bool polish_simplex(std::uint32_t s) {
     coxeter::KeyedRandom random = random_of(s);
     for (int attempt = 0; attempt < options_.trials; ++attempt) {
-      if (!is_reached(s) || !going(result)) return;
+      if (!is_reached(s)) return true;
+      if (!going()) return false;
       const Evaluation evaluation = near_.evaluate(s, options_.accept, true);
-      if (evaluation.margin >= options_.accept) return;
+      if (evaluation.margin >= options_.accept) return true;
       Margins margins;
       moving_.clear();
       trial_steps_.clear();
@@ -276,6 +304,7 @@ class Repairer {
       }
       if (!moving_.empty()) trial(moving_, trial_steps_);
     }
+    return true;
   }
 
   void random_steps(coxeter::KeyedRandom& random) {
@@ -290,6 +319,8 @@ class Repairer {
   PerturbedTriangulation& near_;
   std::vector<std::uint32_t> starts_;
   const RepairOptions& options_;
+  RepairResult result_;
+  RunWatch watch_;
   int d_, round_ = 0;
   std::size_t count_ = 0;
   std::vector<double> step_, fallback_, moved_, steps_, trial_steps_;

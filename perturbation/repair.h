@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -26,10 +25,9 @@ struct RepairOptions {
   double hopeless = 0.35;
   /// Trials of the polish per failing simplex and round.
   int trials = 60;
-  std::size_t max_simplices = 20'000'000;
   Region region{};  ///< of the traces
-  /// Asked often; false stops the repair.
-  std::function<bool()> keep_going;
+  /// Limits of the whole repair. max_simplices: of each trace. The phase is "perturb".
+  RunControl run{.max_simplices = 20'000'000};
 };
 
 /// One round of the repair, before its changes.
@@ -42,7 +40,8 @@ struct RepairRound {
 struct RepairResult {
   std::vector<RepairRound> rounds;  ///< the last one is the state at the end
   bool all_accepted = false;        ///< every simplex of the last trace has a margin of at least `accept`
-  bool complete = true;             ///< no limit and no keep_going stopped it
+  StopReason stop_reason = StopReason::kNone;
+  bool complete = true;  ///< nothing stopped it
 };
 
 /// Finds displacements by repair: trace; push the vertices of every (k-1)-face that is too close to the manifold away

@@ -8,6 +8,7 @@
 
 #include <coxeter/base/error.h>
 #include <coxeter/base/keyed_random.h>
+#include <coxeter/base/run_watch.h>
 #include <coxeter/counts.h>
 #include <perturbation/parameters.h>
 
@@ -206,8 +207,9 @@ int colour(std::span<const std::int32_t> vertex) {
   return static_cast<int>((sum % colours + colours) % colours);
 }
 
-SequentialResult sequential(PerturbedTriangulation& near, std::span<const std::uint32_t> starts,
-                            const SequentialOptions& options) {
+namespace {
+
+void check(const PerturbedTriangulation& near, const SequentialOptions& options) {
   const int d = near.ambient_dim(), k = near.codim();
   if (!(options.max_displacement >= 0) || !std::isfinite(options.max_displacement))
     throw InvalidInput("max_displacement must be finite and not negative");
@@ -216,59 +218,112 @@ SequentialResult sequential(PerturbedTriangulation& near, std::span<const std::u
   if (const double spans = coxeter::num_simplices_in_star(d, k - 1); k > 1 && (spans > kMaxSpans || d > 20))
     throw InvalidInput("the sequential scheme would look at up to " + std::to_string(spans) +
                        " spans for a vertex; in such a codimension use repair");
+}
+
+/// The scheme on one set of starts: places for all vertices known, a trace, and again while it meets new ones.
+class Scheme {
+ public:
+  Scheme(PerturbedTriangulation& near, std::span<const std::uint32_t> starts, const SequentialOptions& options,
+         double radius, double min_distance)
+      : near_(near),
+        options_(options),
+        d_(near.ambient_dim()),
+        placer_(near.triangulation(), near.oracle(), radius, min_distance, options, result_),
+        watch_(options.run, "perturb"),
+        from_(starts.begin(), starts.end()),
+        feet_(from_.size()) {
+    for (std::size_t i = 0; i < from_.size(); ++i)
+      if (FootView view{}; near.foot(from_[i], 0, view)) feet_[i].assign(view.point, view.point + d_);
+  }
+
+  SequentialResult run() {
+    for (;;) {
+      if (!place_vertices()) return stop(watch_.reason());
+      keep_starts_hit();
+      HitWalkOptions walk_options;
+      walk_options.enough = options_.accept;
+      walk_options.region = options_.region;
+      walk_options.run.max_simplices = options_.run.max_simplices;
+      walk_options.run.progress = [this](const Progress& progress) {
+        return !watch_.stopped_now(progress.simplices, progress.evaluations);
+      };
+      const HitWalk trace = walk_hit_facets(near_, from_, walk_options);
+      record(trace);
+      const bool settled = near_.num_vertices() == done_;
+      result_.complete = trace.complete && settled;
+      result_.all_accepted = result_.complete && result_.rounds.back().failing == 0 && result_.rounds.back().hit > 0;
+      if (!trace.complete) return stop(watch_.reason() != StopReason::kNone ? watch_.reason() : trace.stop_reason);
+      if (settled || static_cast<int>(result_.rounds.size()) >= options_.max_rounds) return std::move(result_);
+    }
+  }
+
+ private:
+  SequentialResult stop(StopReason reason) {
+    result_.stop_reason = reason;
+    result_.complete = false;
+    return std::move(result_);
+  }
+
+  /// All vertices known so far go to their places. False when a limit stopped it.
+  bool place_vertices() {
+    for (; done_ < near_.num_vertices(); ++done_) {
+      if (done_ % 64 == 63 && watch_.stopped_now(near_.num_simplices(), result_.oracle_calls)) return false;
+      const auto z = near_.lattice_vertex(done_);
+      vertex_.assign(z.begin(), z.end());
+      const auto u = placer_.displacement(vertex_);
+      if (!std::equal(u.begin(), u.end(), near_.displacement(done_))) near_.set_displacement(done_, u);
+    }
+    return true;
+  }
+
+  /// A start that the manifold left when its vertices moved is replaced by the nearest simplex that it meets now.
+  void keep_starts_hit() {
+    for (std::size_t i = 0; i < from_.size(); ++i)
+      if (!feet_[i].empty() && !near_.evaluate(from_[i], options_.accept, true).is_hit())
+        if (const std::uint32_t other = find_start(near_, feet_[i]); other < near_.num_simplices()) from_[i] = other;
+  }
+
+  void record(const HitWalk& trace) {
+    SequentialRound round;
+    round.vertices = done_;
+    round.simplices = trace.simplices.size();
+    round.worst_margin = std::numeric_limits<double>::infinity();
+    result_.worst_separation = result_.worst_transversality = round.worst_margin;
+    for (const std::uint32_t s : trace.simplices) {
+      const Evaluation& evaluation = near_.evaluate(s, 0);
+      round.worst_margin = std::min(round.worst_margin, double{evaluation.margin});
+      result_.worst_separation = std::min(result_.worst_separation, double{evaluation.separation});
+      result_.worst_transversality = std::min(result_.worst_transversality, double{evaluation.transversality});
+      round.failing += evaluation.margin < options_.accept;
+      round.hit += evaluation.is_hit();
+    }
+    result_.rounds.push_back(round);
+  }
+
+  PerturbedTriangulation& near_;
+  const SequentialOptions& options_;
+  int d_;
+  SequentialResult result_;
+  Placer placer_;
+  RunWatch watch_;
+  std::vector<std::uint32_t> from_;
+  std::vector<std::vector<double>> feet_;  // points of M near the starts, where there are any
+  std::uint32_t done_ = 0;                 // vertices in their places
+  std::vector<std::int32_t> vertex_;
+};
+
+}  // namespace
+
+SequentialResult sequential(PerturbedTriangulation& near, std::span<const std::uint32_t> starts,
+                            const SequentialOptions& options) {
+  check(near, options);
+  const int d = near.ambient_dim(), k = near.codim();
   const WhitneyParameters paper = whitney_parameters(d, d - k, Variant::kCorrected);
   const double radius = options.max_displacement > 0
                             ? options.max_displacement
                             : std::pow(10, paper.log10_max_displacement) * near.triangulation().edge_length();
   const double part = options.min_distance > 0 ? options.min_distance : std::pow(10, paper.log10_slab);
-
-  SequentialResult result;
-  Placer placer(near.triangulation(), near.oracle(), radius, part * radius, options, result);
-  HitWalkOptions trace_options;
-  trace_options.enough = options.accept;
-  trace_options.max_simplices = options.max_simplices;
-  trace_options.region = options.region;
-  trace_options.keep_going = options.keep_going;
-  std::vector<std::uint32_t> from(starts.begin(), starts.end());
-  std::vector<std::vector<double>> feet(from.size());  // points of M near the starts, where there are any
-  for (std::size_t i = 0; i < from.size(); ++i)
-    if (FootView view{}; near.foot(from[i], 0, view)) feet[i].assign(view.point, view.point + d);
-  std::vector<std::int32_t> vertex;
-  for (std::uint32_t done = 0;;) {
-    for (; done < near.num_vertices(); ++done) {
-      if (done % 64 == 63 && options.keep_going && !options.keep_going()) {
-        result.complete = false;
-        return result;
-      }
-      const auto z = near.lattice_vertex(done);
-      vertex.assign(z.begin(), z.end());
-      const auto u = placer.displacement(vertex);
-      if (!std::equal(u.begin(), u.end(), near.displacement(done))) near.set_displacement(done, u);
-    }
-    // A start that the manifold left when its vertices moved is replaced by the nearest simplex that it meets now.
-    for (std::size_t i = 0; i < from.size(); ++i)
-      if (!feet[i].empty() && !near.evaluate(from[i], options.accept, true).is_hit())
-        if (const std::uint32_t other = find_start(near, feet[i]); other < near.num_simplices()) from[i] = other;
-    const HitWalk trace = walk_hit_facets(near, from, trace_options);
-    SequentialRound round;
-    round.vertices = done;
-    round.simplices = trace.simplices.size();
-    round.worst_margin = std::numeric_limits<double>::infinity();
-    result.worst_separation = result.worst_transversality = round.worst_margin;
-    for (const std::uint32_t s : trace.simplices) {
-      const Evaluation& evaluation = near.evaluate(s, 0);
-      round.worst_margin = std::min(round.worst_margin, double{evaluation.margin});
-      result.worst_separation = std::min(result.worst_separation, double{evaluation.separation});
-      result.worst_transversality = std::min(result.worst_transversality, double{evaluation.transversality});
-      round.failing += evaluation.margin < options.accept;
-      round.hit += evaluation.is_hit();
-    }
-    result.rounds.push_back(round);
-    const bool settled = near.num_vertices() == done;
-    result.complete = trace.complete && settled;
-    result.all_accepted = result.complete && round.failing == 0 && round.hit > 0;
-    if (settled || !trace.complete || static_cast<int>(result.rounds.size()) >= options.max_rounds) return result;
-  }
+  return Scheme(near, starts, options, radius, part * radius).run();
 }
 
 }  // namespace whitney::perturbation

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <span>
 #include <vector>
@@ -25,10 +24,9 @@ struct SequentialOptions {
   /// Feet are tried until the margin of a simplex is at least this.
   double accept = 1.02;
   int max_rounds = 50;
-  std::size_t max_simplices = 20'000'000;
   Region region{};  ///< of the traces
-  /// Asked often; false stops the scheme.
-  std::function<bool()> keep_going;
+  /// Limits of the whole scheme. max_simplices: of each trace. The phase is "perturb".
+  RunControl run{.max_simplices = 20'000'000};
 };
 
 /// One trace and what it met.
@@ -49,7 +47,9 @@ struct SequentialResult {
   /// Over the simplices of the last trace, each at its best foot: see Margins.
   double worst_separation = 0, worst_transversality = 0;
   bool all_accepted = false;  ///< every simplex of the last trace has a margin of at least `accept`
-  bool complete = true;       ///< no limit and no keep_going stopped it; otherwise some vertices stand where they stood
+  StopReason stop_reason = StopReason::kNone;
+  /// Nothing stopped it, and the last trace met no vertex without a place; otherwise some stand where they stood.
+  bool complete = true;
   std::size_t oracle_calls = 0;  ///< to place vertices; those of the traces are counted by `near`
 };
 

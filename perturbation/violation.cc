@@ -6,6 +6,8 @@
 #include <limits>
 
 #include <perturbation/certificate_proof.h>
+#include <perturbation/inside.h>
+#include <perturbation/interval.h>
 
 namespace whitney::perturbation {
 namespace {
@@ -22,6 +24,8 @@ class Searcher {
         k_(near.codim()),
         certificate_(d_, d_ - k_, near.oracle().reach(), near.oracle().curvature_radius(), k_),
         prover_(certificate_),
+        feet_are_closest_(near.oracle().promise() ==
+                          FootPromise{FootPromise::Place::kGlobal, FootPromise::Errors::kProven}),
         point_(d_),
         frame_(d_ * d_) {}
 
@@ -40,7 +44,7 @@ class Searcher {
                          std::vector<int>(faces[f], faces[f] + k_ + 1), face.points};
       all_empty = all_empty && face.empty;
     }
-    if (!all_empty) return std::nullopt;
+    if (!all_empty || !feet_are_closest_) return std::nullopt;
     return point_inside(s);
   }
 
@@ -70,22 +74,13 @@ class Searcher {
         for (int c = 0; c < d_; ++c) centre[c] += piece[j * d_ + c] / (k_ + 1);
       FootErrors errors;
       const bool exists = project(centre, errors);
-      double size = 0;
-      for (int j = 0; j <= k_; ++j) {
-        double squared = 0;
-        for (int c = 0; c < d_; ++c) squared += std::pow(piece[j * d_ + c] - centre[c], 2);
-        size = std::max(size, std::sqrt(squared));
-      }
       double largest = 0;
       for (const double x : piece) largest = std::max(largest, std::abs(x));
       // A piece is as far from the exact one as the rounding of its midpoints took it, at most one unit in the last
       // place for each of fewer than a hundred bisections. It counts like an error of the foot.
       errors.point += 100 * d_ * largest * std::numeric_limits<double>::epsilon();
       if (exists) {
-        double squared = 0;
-        for (int c = 0; c < d_; ++c) squared += std::pow(centre[c] - point_[c], 2);
-        // Relative rounding errors of these sums stay far below 1e-12.
-        if (std::sqrt(squared) * (1 - 1e-12) - errors.point > size * (1 + 1e-12)) continue;
+        if (is_empty(piece, centre, errors.point)) continue;
         std::vector<const double*> corner(k_ + 1);
         for (int j = 0; j <= k_; ++j) corner[j] = &piece[j * d_];
         const Proof proof = prover_.prove(corner.data(), {point_.data(), frame_.data(), errors});
@@ -99,6 +94,15 @@ class Searcher {
       bisect(piece, stack);
     }
     return face;
+  }
+
+  /// Whether the foot of `centre` is further from it than all of the piece: by the distances of the vertices.
+  bool is_empty(const Piece& piece, const std::vector<double>& centre, double error) const {
+    const Rounding rounding;
+    double size = 0;
+    for (int j = 0; j <= k_; ++j)
+      size = std::max(size, distance_above({&piece[j * d_], static_cast<std::size_t>(d_)}, centre));
+    return (Interval(distance_below(centre, point_)) - Interval(error) - Interval(size)).inf() > 0;
   }
 
   void bisect(const Piece& piece, std::vector<Piece>& stack) const {
@@ -138,6 +142,7 @@ class Searcher {
   std::size_t all_pieces_ = 0;
   Certificate certificate_;
   CertificateProver prover_;
+  bool feet_are_closest_;  ///< proved: distances from feet are distances from M
   std::vector<double> point_, frame_;
 };
 

@@ -37,8 +37,9 @@ struct ViolationOptions {
 ///
 /// Two points: a k-face is bisected at its longest edge again and again; a piece whose own (k-1)-faces satisfy (A+) and
 /// that is hit and satisfies (B) holds exactly one point of M (the sheet of its foot), in its interior. Two pieces are
-/// two points. No point: dist(x, M) is 1-Lipschitz, so a piece about x with radius below dist(x, M) is empty; this
-/// rests on the oracle's feet being closest points, as a FootOracle promises.
+/// two points; this rests on the reach and on the errors of the feet. No point: dist(x, M) is 1-Lipschitz, so a piece
+/// about x with radius below dist(x, M) is empty; this is claimed only of oracles that promise feet proved to be the
+/// closest points, with proven errors (see FootPromise): a local foot says nothing of the rest of M.
 std::optional<Violation> find_violation(PerturbedTriangulation& near, std::span<const std::uint32_t> simplices,
                                         const ViolationOptions& options = {});
 

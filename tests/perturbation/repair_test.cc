@@ -7,11 +7,12 @@
 #include <tuple>
 #include <vector>
 
-#include <Eigen/Core>
 #include <gtest/gtest.h>
+#include <Eigen/Core>
 
 #include <coxeter/base/error.h>
 #include <coxeter/quality.h>
+#include <perturbation/inside.h>
 #include <perturbation/verdict.h>
 #include "sphere_oracle.h"
 
@@ -53,7 +54,7 @@ Trial attempt(const FootOracle& oracle, const coxeter::Triangulation& triangulat
   if (max_rounds > 0) out.repair = repair(near, std::span(&start, 1), options);
   const std::uint32_t again = find_start(near, seed);
   HitWalkOptions trace_options;
-  trace_options.max_simplices = max_simplices;
+  trace_options.run.max_simplices = max_simplices;
   out.trace = walk_hit_facets(near, std::span(&again, 1), trace_options);
   out.report = certify(near, out.trace, width);
   std::map<std::vector<int>, std::vector<double>> sorted;
@@ -392,10 +393,16 @@ TEST(Repair, StopsWhenAsked) {
   const std::uint32_t start = find_start(near, on_axis(4));
   RepairOptions options;
   options.max_displacement = 0.499 * coxeter::simplex_width(triangulation);
-  options.keep_going = [] { return false; };
+  options.run.progress = [](const Progress&) { return false; };
   const RepairResult result = repair(near, std::span(&start, 1), options);
   EXPECT_FALSE(result.complete);
   EXPECT_FALSE(result.all_accepted);
+  EXPECT_EQ(result.stop_reason, StopReason::kCancelled);
+
+  options.run = {.max_simplices = 50};
+  EXPECT_EQ(repair(near, std::span(&start, 1), options).stop_reason, StopReason::kMaxSimplices);
+  options.run = {.time_limit = 0};
+  EXPECT_EQ(repair(near, std::span(&start, 1), options).stop_reason, StopReason::kTimeLimit);
 }
 
 }  // namespace

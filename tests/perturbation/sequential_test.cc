@@ -259,10 +259,12 @@ TEST(Sequential, MarginsGrowAsTheEdgesShrink) {
 
 TEST(Sequential, StopsWhenAsked) {
   SequentialOptions options = best_of(3, 0.1, 8);
-  options.keep_going = [] { return false; };
-  EXPECT_FALSE(Scheme(3, 2, 0.1, options).result.complete);
-  options.keep_going = {};
-  options.max_simplices = 10;
+  options.run.progress = [](const Progress&) { return false; };
+  const Scheme cancelled(3, 2, 0.1, options);
+  EXPECT_FALSE(cancelled.result.complete);
+  EXPECT_EQ(cancelled.result.stop_reason, StopReason::kCancelled);
+  options.run.progress = {};
+  options.run.max_simplices = 10;
   const Scheme run(3, 2, 0.1, options);
   EXPECT_FALSE(run.result.complete);
   EXPECT_FALSE(run.result.all_accepted);
@@ -288,7 +290,7 @@ TEST(Sequential, RejectsBadInput) {
   EXPECT_THROW(sequential(near7, start), InvalidInput);
   const std::uint32_t start9[] = {near9.locate(hypersurface.point())};
   options = {};
-  options.max_simplices = 5;
+  options.run.max_simplices = 5;
   EXPECT_NO_THROW(sequential(near9, start9, options));
 }
 

@@ -12,7 +12,7 @@
 #include <perturbation/inside.h>
 #include <whitney/construction/distance_bound.h>
 #include <whitney/construction/place_on_manifold.h>
-#include <whitney/construction/run_watch.h>
+#include <whitney/construction/phase_watch.h>
 #include <whitney/construction/submanifold_oracle.h>
 #include <whitney/construction/whitney_complex.h>
 #include <whitney/manifolds/reach_claim.h>
@@ -217,9 +217,9 @@ class Construction {
     scheme.max_displacement = options_.displacement_fraction * width_ / 2;
     scheme.rng_seed = options_.rng_seed;
     scheme.max_rounds = options_.max_rounds;
-    scheme.max_simplices = options_.run.max_simplices;
+    scheme.run.max_simplices = options_.run.max_simplices;
     scheme.region = make_region();
-    scheme.keep_going = keep_going("perturb", near);
+    scheme.run.progress = [go = keep_going("perturb", near)](const Progress&) { return go(); };
     return scheme;
   }
 
@@ -244,14 +244,14 @@ class Construction {
   HitWalk walk(PerturbedTriangulation& near) {
     const std::vector<std::uint32_t> starts = find_starts(near, seed_counts_);
     HitWalkOptions walk_options;
-    walk_options.max_simplices = std::min(options_.run.max_simplices, most_simplices_);
+    walk_options.run.max_simplices = std::min(options_.run.max_simplices, most_simplices_);
     walk_options.region = make_region();
     // What was found by then is wanted even when the search was stopped, but not at any price.
     const double deadline = 1.25 * watch_.seconds() + 1;
     if (watch_.stopped())
-      walk_options.keep_going = [this, deadline] { return watch_.seconds() < deadline; };
+      walk_options.run.progress = [this, deadline](const Progress&) { return watch_.seconds() < deadline; };
     else
-      walk_options.keep_going = keep_going("certify", near);
+      walk_options.run.progress = [go = keep_going("certify", near)](const Progress&) { return go(); };
     HitWalk trace = perturbation::walk_hit_facets(near, starts, walk_options);
     if (!trace.complete) {
       watch_.stop(StopReason::kMaxSimplices);
@@ -348,7 +348,7 @@ class Construction {
   SubmanifoldOracle oracle_;
   Domain domain_;
   double width_;
-  RunWatch watch_;
+  PhaseWatch watch_;
 
   // Feet of the seeds that have one: points m x d, error bounds, and which seeds they belong to.
   std::vector<double> feet_, feet_errors_;

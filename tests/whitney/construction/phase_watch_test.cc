@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <whitney/construction/run_watch.h>
+#include <whitney/construction/phase_watch.h>
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,10 @@
 namespace whitney {
 namespace {
 
-TEST(RunWatch, TheFirstLimitReachedStays) {
+TEST(PhaseWatch, TheFirstLimitReachedStays) {
   RunControl run;
   run.time_limit = -1;
-  RunWatch late(run);
+  PhaseWatch late(run);
   EXPECT_FALSE(late.keep_going("a"));
   late.stop(StopReason::kMaxSimplices);
   EXPECT_EQ(late.stop_reason(), StopReason::kTimeLimit);
@@ -23,7 +23,7 @@ TEST(RunWatch, TheFirstLimitReachedStays) {
     EXPECT_EQ(progress.simplices, 7u);
     return ++asked < 2;
   };
-  RunWatch impatient(run);
+  PhaseWatch impatient(run);
   EXPECT_TRUE(impatient.keep_going("b", 7));
   EXPECT_FALSE(impatient.keep_going("b", 7));
   EXPECT_FALSE(impatient.keep_going("b", 7));
@@ -31,18 +31,18 @@ TEST(RunWatch, TheFirstLimitReachedStays) {
   EXPECT_EQ(impatient.stop_reason(), StopReason::kCancelled);
 }
 
-TEST(RunWatch, Memory) {
-  EXPECT_TRUE(RunWatch({}).fits(~std::uint64_t{0}));  // no limit
+TEST(PhaseWatch, Memory) {
+  EXPECT_TRUE(PhaseWatch({}).fits(~std::uint64_t{0}));  // no limit
   RunControl run;
   run.memory_limit = resident_bytes() + (std::uint64_t{1} << 30);
-  RunWatch watch(run);
+  PhaseWatch watch(run);
   EXPECT_TRUE(watch.fits(1 << 20));
   EXPECT_TRUE(watch.keep_going("c"));
   EXPECT_FALSE(watch.fits(std::uint64_t{1} << 32));
   EXPECT_EQ(watch.stop_reason(), StopReason::kMemoryLimit);
   EXPECT_FALSE(watch.keep_going("c"));
   run.memory_limit = 1;
-  RunWatch full(run);
+  PhaseWatch full(run);
   EXPECT_FALSE(full.keep_going("d"));
   EXPECT_EQ(full.stop_reason(), StopReason::kMemoryLimit);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <whitney/construction/run_watch.h>
+#include <whitney/construction/phase_watch.h>
 
 #include <limits>
 
@@ -12,27 +12,27 @@ constexpr double kAskEvery = 0.02;  // seconds
 
 }  // namespace
 
-double RunWatch::seconds() const {
+double PhaseWatch::seconds() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
 }
 
-bool RunWatch::memory_is_short(std::uint64_t bytes) const {
+bool PhaseWatch::memory_is_short(std::uint64_t bytes) const {
   if (run_.memory_limit == std::numeric_limits<std::uint64_t>::max()) return false;
   const std::uint64_t used = resident_bytes();
   return used > run_.memory_limit || bytes > run_.memory_limit - used;
 }
 
-void RunWatch::stop(StopReason reason) {
+void PhaseWatch::stop(StopReason reason) {
   if (!stopped()) reason_ = reason;
 }
 
-bool RunWatch::fits(std::uint64_t bytes) {
+bool PhaseWatch::fits(std::uint64_t bytes) {
   if (!memory_is_short(bytes)) return true;
   stop(StopReason::kMemoryLimit);
   return false;
 }
 
-bool RunWatch::keep_going(const char* phase, std::size_t simplices, std::size_t evaluations,
+bool PhaseWatch::keep_going(const char* phase, std::size_t simplices, std::size_t evaluations,
                           std::uint64_t bytes_to_come) {
   if (stopped()) return false;
   const double now = seconds();

@@ -10,9 +10,9 @@
 namespace whitney {
 
 /// Watches over the limits of a run of several phases. The first limit that is reached is remembered and ends the run.
-class RunWatch {
+class PhaseWatch {
  public:
-  explicit RunWatch(const RunControl& run) : run_(run), begin_(std::chrono::steady_clock::now()) {}
+  explicit PhaseWatch(const RunControl& run) : run_(run), begin_(std::chrono::steady_clock::now()) {}
 
   double seconds() const;  ///< since the run began
   /// Whether no limit is reached: of time, of memory (what the process holds now and bytes_to_come), or of the caller's
