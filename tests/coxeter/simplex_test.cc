@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <coxeter/base/eigen_view.h>
 #include <coxeter/simplex.h>
 
 #include <limits>
@@ -9,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <tests/coxeter/brute_force.h>
 
+#include <coxeter/base/eigen_view.h>
 #include <coxeter/base/error.h>
 #include <coxeter/triangulation.h>
 

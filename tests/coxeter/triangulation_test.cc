@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <coxeter/base/eigen_view.h>
 #include <coxeter/triangulation.h>
 
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <Eigen/QR>
 #include <gtest/gtest.h>
 
+#include <coxeter/base/eigen_view.h>
 #include <coxeter/base/error.h>
 
 namespace whitney::coxeter {

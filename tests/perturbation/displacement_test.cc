@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <coxeter/base/eigen_view.h>
 #include <perturbation/displacement.h>
 
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
+#include <coxeter/base/eigen_view.h>
 #include <coxeter/base/error.h>
 #include <coxeter/faces/cofaces.h>
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <perturbation/hit_walk.h>
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <string>
 #include <vector>
 
+#include <gtest/gtest.h>
 #include <tests/perturbation/circle_oracle.h>
 
 namespace whitney::perturbation {

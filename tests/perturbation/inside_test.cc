@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <perturbation/inside.h>
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
+#include <gtest/gtest.h>
+#include <tests/perturbation/circle_oracle.h>
+#include <tests/perturbation/sphere_oracle.h>
+
 #include <coxeter/base/error.h>
 #include <coxeter/quality.h>
 #include <perturbation/hit_walk.h>
-#include <tests/perturbation/circle_oracle.h>
-#include <tests/perturbation/sphere_oracle.h>
 
 namespace whitney::perturbation {
 namespace {

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <perturbation/perturbed_triangulation.h>
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <set>
 #include <vector>
 
-#include <coxeter/base/error.h>
+#include <gtest/gtest.h>
 #include <tests/perturbation/circle_oracle.h>
 #include <tests/perturbation/sphere_oracle.h>
+
+#include <coxeter/base/error.h>
 
 namespace whitney::perturbation {
 namespace {

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <coxeter/base/eigen_view.h>
 #include <perturbation/repair.h>
 
 #include <cmath>
@@ -7,9 +6,10 @@
 #include <tuple>
 #include <vector>
 
-#include <gtest/gtest.h>
 #include <Eigen/Core>
+#include <gtest/gtest.h>
 
+#include <coxeter/base/eigen_view.h>
 #include <coxeter/base/error.h>
 #include <coxeter/quality.h>
 #include <perturbation/inside.h>

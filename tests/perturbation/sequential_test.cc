@@ -7,9 +7,9 @@
 #include <random>
 #include <vector>
 
+#include <Eigen/Dense>
 #include <gtest/gtest.h>
 #include <tests/coxeter/brute_force.h>
-#include <Eigen/Dense>
 
 #include <coxeter/base/error.h>
 #include <coxeter/quality.h>

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <perturbation/verdict.h>
 
-#include <gtest/gtest.h>
-
 #include <string>
 #include <vector>
 
-#include <coxeter/quality.h>
+#include <gtest/gtest.h>
 #include <tests/perturbation/circle_oracle.h>
+
+#include <coxeter/quality.h>
 
 namespace whitney::perturbation {
 namespace {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <perturbation/violation.h>
 
-#include <gtest/gtest.h>
-
 #include <optional>
 #include <string>
 #include <vector>
 
+#include <gtest/gtest.h>
 #include <tests/perturbation/circle_oracle.h>
 
 namespace whitney::perturbation {

@@ -48,6 +48,24 @@ std::string kind_of(const Topology& t, int n) {
   return "complex of dimension " + std::to_string(n) + ", links not checked";
 }
 
+/// What of M the complex is homeomorphic to.
+std::string proved_part(const CertificateSummary& c) {
+  std::string part = c.components == "connected_by_definition" ? "the manifold"
+                     : c.components == "seeds_searched"
+                         ? "the components of the manifold that the seeds lie on (searched for: likely all, not proved)"
+                         : "the components of the manifold that the seeds lie on";
+  if (c.cut) part = "the part of " + part + " in its simplices, which end just beyond the inequalities";
+  return part;
+}
+
+/// ": no proof, since ..", or nothing.
+std::string what_is_no_proof(const CertificateSummary& c) {
+  const bool estimated = c.reach_source == "estimated", modelled = c.feet_source == "modelled";
+  if (!estimated && !modelled) return "";
+  return std::string(": no proof as it stands, since ") + (estimated ? "the reach is an estimate" : "") +
+         (estimated && modelled ? " and " : "") + (modelled ? "the errors of the feet are a model" : "");
+}
+
 }  // namespace
 
 std::string describe_topology(const Report& report) {
@@ -144,11 +162,11 @@ std::string describe_seeds(const Report& report) {
 std::string describe_singular_points(const Report& report) {
   std::string text;
   for (const auto& point : report.interior_singular_points)
-    text += report.charts.empty() ? "the zero set is SINGULAR at " + point_text(point) +
-                                        ": it crosses or touches itself or has a tip there, and the mesh is one "
-                                        "resolution of it among several\n"
-                                  : "the zero set of a chart is SINGULAR at " + point_text(point) +
-                                        ", in the chart's coordinates\n";
+    text += report.charts.empty()
+                ? "the zero set is SINGULAR at " + point_text(point) +
+                      ": it crosses or touches itself or has a tip there, and the mesh is one "
+                      "resolution of it among several\n"
+                : "the zero set of a chart is SINGULAR at " + point_text(point) + ", in the chart's coordinates\n";
   return text;
 }
 
@@ -159,11 +177,8 @@ std::string describe_certificate(const Report& report) {
   text.precision(4);
   text << c.verdict << (c.cut ? " away from the boundary: " : ": ");
   if (c.verdict == "certified") {
-    text << "the complex is homeomorphic to "
-         << (c.cut ? "the part of the manifold in its simplices, which end just beyond the inequalities"
-                   : "the manifold")
-         << ", given its reach " << c.reach << " (" << c.reach_source << ")";
-    if (c.reach_source == "estimated") text << ": an estimate, so this is no proof";
+    text << "the complex is homeomorphic to " << proved_part(c) << ", given its reach " << c.reach << " ("
+         << c.reach_source << ") and feet with errors that are " << c.feet_source << what_is_no_proof(c);
     text << "\n  margins: worst " << c.margin_min << ", median " << c.margin_median;
     if (c.hausdorff_bound) text << "; Hausdorff distance at most " << *c.hausdorff_bound;
     text << "\n";

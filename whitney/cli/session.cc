@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <whitney/cli/session.h>
 
-#include <unistd.h>
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <iostream>
+#include <unistd.h>
 
 #include <coxeter/base/memory_use.h>
 

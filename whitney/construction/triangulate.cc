@@ -11,8 +11,8 @@
 #include <coxeter/quality.h>
 #include <perturbation/inside.h>
 #include <whitney/construction/distance_bound.h>
-#include <whitney/construction/place_on_manifold.h>
 #include <whitney/construction/phase_watch.h>
+#include <whitney/construction/place_on_manifold.h>
 #include <whitney/construction/submanifold_oracle.h>
 #include <whitney/construction/whitney_complex.h>
 #include <whitney/manifolds/reach_claim.h>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <whitney/io/output_files.h>
 
-#include <unistd.h>
 #include <algorithm>
 #include <cctype>
 #include <exception>
 #include <filesystem>
 #include <system_error>
+#include <unistd.h>
 
 #include <coxeter/base/error.h>
 #include <whitney/cells/subdivide.h>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <whitney/io/read_file.h>
 
-#include <fcntl.h>
-#include <unistd.h>
 #include <cerrno>
+#include <fcntl.h>
 #include <system_error>
+#include <unistd.h>
 
 #include <coxeter/base/error.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <whitney/io/write_report.h>
 
-#include <sys/resource.h>
 #include <string>
+#include <sys/resource.h>
 #include <utility>
 #include <vector>
 
@@ -25,6 +25,9 @@ Json certificate_json(const CertificateSummary& c) {
   out["reach"] = c.reach;
   out["curvature_radius"] = c.curvature_radius;
   out["reach_source"] = c.reach_source;
+  out["feet_source"] = c.feet_source;
+  out["feet_place"] = c.feet_place;
+  out["components"] = c.components;
   out["edge_length_over_reach"] = c.edge_length_over_reach;
   out["hausdorff_bound"] = c.hausdorff_bound ? Json(*c.hausdorff_bound) : Json(nullptr);
   out["away_from_boundary"] = c.cut;

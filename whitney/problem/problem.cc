@@ -5,7 +5,6 @@
 #include <string>
 #include <utility>
 
-
 #include <coxeter/base/error.h>
 #include <coxeter/placement.h>
 #include <whitney/functions/find_seeds.h>

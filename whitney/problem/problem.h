@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-
 #include <coxeter/triangulation.h>
 #include <whitney/atlas/chart_atlas.h>
 #include <whitney/functions/domain.h>

@@ -44,6 +44,12 @@ struct CertificateSummary {
   std::size_t vertices_near = 0, vertices_moved = 0;
   double reach = 0, curvature_radius = 0;  ///< lengths
   std::string reach_source;                ///< what the reach rests on: "proven", "caller", "estimated"
+  /// What the feet rest on: "proven" (an analysis of the formulas bounds their errors), "modelled" (a model of the
+  /// errors, which may be wrong); and which point a foot is: "global" (the closest, proved), "local", "unknown".
+  std::string feet_source, feet_place;
+  /// Which components of M the verdict is about: "seeds_given" (those that the seed points lie on), "seeds_searched"
+  /// (likely all, not proved), "connected_by_definition" (all).
+  std::string components;
   double edge_length_over_reach = 0;
   std::optional<double> hausdorff_bound;       ///< between K and M (a length); null when it is not proved
   bool cut = false;                            ///< the verdict is about the part of M near the inequalities' domain
@@ -91,10 +97,10 @@ struct SeedSummary {
   bool searched = false;       ///< none were given; that every component was found is then likely, not proved
   std::size_t num_starts = 0;  ///< Newton iterations of that search
   std::size_t num_used = 0, num_merged = 0, num_dropped = 0;
-  std::size_t num_too_small = 0;       ///< that lie on parts too small for the edge length, see SeedReport
+  std::size_t num_too_small = 0;        ///< that lie on parts too small for the edge length, see SeedReport
   std::vector<double> too_small_point;  ///< where the first of them lies, d
   double finer_edge_length = 0;         ///< at which all of them would be met, as far as that is known; 0: not known
-  std::vector<std::string> dropped;  ///< of seeds that were given: "seed point 3 dropped: <why>"
+  std::vector<std::string> dropped;     ///< of seeds that were given: "seed point 3 dropped: <why>"
 };
 
 /// What a run found, as data.
@@ -121,8 +127,8 @@ struct Report {
   /// and the smallest singular value found, see check_interior.
   std::vector<std::vector<double>> interior_singular_points{};
   double interior_singular_value = 1;
-  bool interior_searched = false;     ///< those points were looked for
-  std::vector<ChartSummary> charts{};         ///< of a manifold made of charts; ambient_dim is that of the charts
+  bool interior_searched = false;      ///< those points were looked for
+  std::vector<ChartSummary> charts{};  ///< of a manifold made of charts; ambient_dim is that of the charts
   std::vector<SeamSummary> seams{};
   std::optional<ComplexQuality> quality{};  ///< of the mesh; angles in radians
 

@@ -22,8 +22,9 @@ void count_seeds(const TracedPiece& piece, Report& report) {
     if (seed.outcome == SeedReport::Outcome::kTooSmall) {
       if (seeds.num_too_small++ == 0) seeds.too_small_point = seed.unseen;
       if (seed.finer_edge_length > 0)
-        seeds.finer_edge_length = seeds.finer_edge_length > 0 ? std::min(seeds.finer_edge_length, seed.finer_edge_length)
-                                                              : seed.finer_edge_length;
+        seeds.finer_edge_length = seeds.finer_edge_length > 0
+                                      ? std::min(seeds.finer_edge_length, seed.finer_edge_length)
+                                      : seed.finer_edge_length;
     }
     if (!piece.searched && seed.outcome == SeedReport::Outcome::kDropped)
       seeds.dropped.push_back("seed point " + std::to_string(i + 1) + " dropped: " + seed.reason);

@@ -86,7 +86,8 @@ ScaleSearchOptions search_options(const Problem& problem, const TriangulateProbl
   return search;
 }
 
-CertificateSummary summarize(const TriangulateResult& result, const Bending& bending) {
+CertificateSummary summarize(const TriangulateResult& result, const Bending& bending, const FootPromise& feet,
+                             bool searched) {
   const perturbation::CertificateReport& report = result.certificate;
   CertificateSummary out;
   out.verdict = to_string(report.verdict);
@@ -99,6 +100,9 @@ CertificateSummary summarize(const TriangulateResult& result, const Bending& ben
   out.reach = bending.reach;
   out.curvature_radius = bending.curvature_radius;
   out.reach_source = to_string(bending.source);
+  out.feet_source = to_string(feet.errors);
+  out.feet_place = to_string(feet.place);
+  out.components = searched ? "seeds_searched" : "seeds_given";
   out.edge_length_over_reach = result.edge_length / bending.reach;
   if (report.verdict == Verdict::kCertified && !result.cut) out.hausdorff_bound = result.hausdorff_bound;
   out.cut = result.cut;
@@ -108,7 +112,8 @@ CertificateSummary summarize(const TriangulateResult& result, const Bending& ben
   return out;
 }
 
-void summarize(const ScaleSearchResult& search, const Bending& bending, const Problem& problem, Report& report) {
+void summarize(const ScaleSearchResult& search, const Submanifold& manifold, const Bending& bending,
+               const Problem& problem, Report& report) {
   const TriangulateResult& result = search.result;
   const int k = problem.codim(), n = problem.ambient_dim() - k;
   report.edge_length = search.attempts.back().edge_length;
@@ -119,7 +124,7 @@ void summarize(const ScaleSearchResult& search, const Bending& bending, const Pr
   report.simplices_met = result.certificate.simplices;
   report.oracle_evaluations = result.oracle_evaluations;
   report.distinct_vertices = result.vertices_near;
-  report.certificate = summarize(result, bending);
+  report.certificate = summarize(result, bending, manifold.promise(), report.seeds.searched);
   report.seconds["perturb"] = result.seconds_perturb;
   report.seconds["certify"] = result.seconds_certify;
   report.seconds["complex"] = result.seconds_complex;
@@ -231,7 +236,7 @@ TriangulatedProblem triangulate_problem(const Problem& asked, const TriangulateP
   report.cut_short = budget.stopped();
   std::map<std::string, double> inside_search;
   budget.lap(inside_search, "");
-  summarize(search, *bending, problem, report);
+  summarize(search, manifold, *bending, problem, report);
   out.attempts = search.attempts;
   if (search.result.certificate.simplices == 0)
     return finish(Outcome::kNothingFound,

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <coxeter/base/matrix.h>
+
 #include <cmath>
 #include <vector>
 
-#include <coxeter/base/error.h>
-#include <coxeter/base/matrix.h>
 #include <gtest/gtest.h>
+
+#include <coxeter/base/error.h>
 
 namespace whitney {
 namespace {

@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include <gtest/gtest.h>
 #include <Eigen/Core>
+#include <gtest/gtest.h>
 
 #include <coxeter/base/error.h>
 #include <whitney/atlas/glue_charts.h>

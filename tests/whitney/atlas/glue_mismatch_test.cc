@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <whitney/atlas/glue_charts.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,11 +8,12 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Dense>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <Eigen/Dense>
 
 #include <coxeter/base/error.h>
+#include <whitney/atlas/glue_charts.h>
 #include <whitney/topology/topology.h>
 #include "atlas/glue_cases.h"
 

@@ -380,6 +380,60 @@ TEST_F(Program, TriangulateNamesBadInput) {
   EXPECT_TRUE(says("nowhere.json")) << output_;
 }
 
+TEST_F(Program, AnOutputNeverReplacesTheInputOrAnotherOutput) {
+  const std::string file = problem(kTorus), before = content(file);
+  EXPECT_EQ(run("trace " + file + " --stats " + file), 1);
+  EXPECT_TRUE(says("this is the input")) << output_;
+  EXPECT_EQ(run("trace " + file + " -o " + path("a.off") + " -o " + path("./a.off")), 1);
+  EXPECT_TRUE(says("two outputs")) << output_;
+  EXPECT_EQ(run("triangulate " + file + " --stats " + path("s.json") + " -o " + path("s.json")), 1);
+  EXPECT_EQ(run("trace " + file + " --strata " + path("p.noff") + " -o " + path("p_0.noff")), 1);
+  EXPECT_TRUE(says("stratum")) << output_;
+  fs::create_directories(path("folder.off"));
+  EXPECT_EQ(run("trace " + file + " -o " + path("folder.off")), 1);
+  EXPECT_TRUE(says("folder of this name")) << output_;
+  EXPECT_EQ(content(file), before);
+  EXPECT_EQ(files("a.off") + files("s.json") + files("p_0"), 0);
+}
+
+TEST_F(Program, MemoryAndTopologyLevels) {
+  EXPECT_EQ(run("trace " + problem(kTorus) + " --topology euler -o " + path("t.off") + " --stats " + path("s.json")),
+            0);
+  EXPECT_TRUE(says("Euler characteristic 0") && !says("homology")) << output_;
+  EXPECT_NE(content(path("s.json")).find("\"homology_z\": null"), std::string::npos);
+  EXPECT_EQ(run("trace " + problem(kTorus) + " --topology none --stats " + path("s.json")), 0);
+  EXPECT_NE(content(path("s.json")).find("\"euler_characteristic\": null"), std::string::npos);
+  // The 3-sphere at this edge length is found within 150 MB, its topology is not.
+  EXPECT_EQ(run("trace " + problem(R"({"named": {"name": "sphere", "intrinsic_dim": 3},
+                                       "triangulation": {"edge_length": 0.08}})") +
+                " --memory-limit 300M -o " + path("s3.noff") + " --stats " + path("s.json")),
+            2)
+      << output_;
+  EXPECT_TRUE(says("memory_limit")) << output_;
+  EXPECT_TRUE(says("left out: ") && says("would take about")) << output_;
+  EXPECT_TRUE(fs::exists(path("s3.noff")));
+  EXPECT_NE(content(path("s.json")).find("\"left_out\": [\n    {"), std::string::npos);
+  EXPECT_EQ(run("trace " + problem(kTorus) + " --memory-limit lots"), 1);
+}
+
+TEST_F(Program, TheVerdictSaysWhatItRestsOn) {
+  ASSERT_EQ(run("triangulate " + problem(R"({"variables": ["x","y"], "equations": ["x^2+y^2-1"],
+                "box": [[-2,2],[-2,2]], "reach": 1, "triangulation": {"edge_length": 0.3}})") +
+                " --stats " + path("s.json")),
+            0)
+      << output_;
+  EXPECT_TRUE(says("components of the manifold that the seeds lie on") && says("likely all, not proved")) << output_;
+  EXPECT_TRUE(says("the errors of the feet are a model")) << output_;
+  const std::string stats = content(path("s.json"));
+  for (const char* key : {"\"reach_source\": \"caller\"", "\"feet_source\": \"modelled\"", "\"components\": \"seeds_"})
+    EXPECT_NE(stats.find(key), std::string::npos) << key;
+}
+
+TEST_F(Program, NoTextSpeaksOfWhatIsNotThereYet) {
+  EXPECT_EQ(run("trace " + problem(R"({"named": {"name": "klein_quartic"}})")), 1);
+  EXPECT_TRUE(says("projective") && !says("does not have yet")) << output_;
+}
+
 }  // namespace
 
 #endif

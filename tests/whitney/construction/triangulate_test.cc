@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <coxeter/placement.h>
 #include <whitney/construction/triangulate.h>
 
 #include <algorithm>
@@ -11,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <coxeter/base/error.h>
+#include <coxeter/placement.h>
 #include <whitney/cells/subdivide.h>
 #include <whitney/construction/scale_search.h>
 #include <whitney/io/read_problem.h>

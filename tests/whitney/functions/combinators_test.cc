@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <coxeter/base/eigen_view.h>
-#include <coxeter/placement.h>
 #include <whitney/functions/combinators.h>
 
 #include <cmath>
@@ -10,7 +8,9 @@
 
 #include <gtest/gtest.h>
 
+#include <coxeter/base/eigen_view.h>
 #include <coxeter/base/error.h>
+#include <coxeter/placement.h>
 #include <whitney/functions/expression.h>
 #include <whitney/functions/zero_sets.h>
 #include <whitney/io/read_problem.h>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <coxeter/base/eigen_view.h>
 #include <whitney/functions/projection.h>
 
 #include <cmath>
@@ -7,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <coxeter/base/eigen_view.h>
 #include <coxeter/base/error.h>
 
 namespace whitney {

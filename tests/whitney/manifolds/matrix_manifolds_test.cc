@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <coxeter/base/eigen_view.h>
 #include <whitney/manifolds/matrix_manifolds.h>
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
+#include <coxeter/base/eigen_view.h>
 #include <coxeter/base/error.h>
 #include <whitney/functions/zero_sets.h>
 #include <whitney/manifolds/reach_claim.h>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <coxeter/placement.h>
 #include <whitney/manifolds/submanifold_combinators.h>
 
 #include <cmath>
@@ -7,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <coxeter/base/error.h>
+#include <coxeter/placement.h>
 #include <whitney/io/read_problem.h>
 #include <whitney/manifolds/closed_form_manifolds.h>
 #include <whitney/manifolds/immersed_surfaces.h>

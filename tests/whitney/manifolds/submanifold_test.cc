@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include <gtest/gtest.h>
 #include <Eigen/Core>
+#include <gtest/gtest.h>
 
 #include <whitney/functions/function.h>
 #include <whitney/manifolds/closed_form_manifolds.h>
