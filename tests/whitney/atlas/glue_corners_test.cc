@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <whitney/atlas/glue_charts.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,6 +12,7 @@
 #include <Eigen/Dense>
 
 #include <coxeter/base/error.h>
+#include <whitney/atlas/glue_charts.h>
 #include <whitney/topology/topology.h>
 #include "atlas/glue_cases.h"
 
