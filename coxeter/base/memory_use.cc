@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <coxeter/base/memory_use.h>
 
+#include <sys/resource.h>
+#include <unistd.h>
 #include <algorithm>
 #include <fstream>
 #include <limits>
 #include <optional>
 #include <string>
-#include <sys/resource.h>
-#include <unistd.h>
 
 namespace whitney {
 namespace {
@@ -29,7 +29,7 @@ std::uint64_t left_by_group(std::string folder, const std::string& root, const c
     const auto most = number_in(folder + "/" + limit), now = number_in(folder + "/" + used);
     if (most && now) left = std::min(left, *most > *now ? *most - *now : 0);
     if (folder.size() <= root.size()) return left;
-    folder.resize(std::max(root.size(), folder.rfind('/')));
+    folder = folder.substr(0, std::max(root.size(), folder.rfind('/')));
   }
 }
 
