@@ -6,8 +6,8 @@
 #include <limits>
 #include <vector>
 
-#include <Eigen/QR>
 #include <gtest/gtest.h>
+#include <Eigen/QR>
 
 #include <coxeter/base/error.h>
 

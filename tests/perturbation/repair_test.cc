@@ -7,8 +7,8 @@
 #include <tuple>
 #include <vector>
 
-#include <Eigen/Core>
 #include <gtest/gtest.h>
+#include <Eigen/Core>
 
 #include <coxeter/base/error.h>
 #include <coxeter/quality.h>

@@ -2,8 +2,8 @@
 #include <coxeter/base/eigen_view.h>
 #include <whitney/manifolds/matrix_manifolds.h>
 
-#include <Eigen/Dense>
 #include <gtest/gtest.h>
+#include <Eigen/Dense>
 
 #include <coxeter/base/error.h>
 #include <whitney/functions/zero_sets.h>
