@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whitney's construction for a manifold that only the user knows: a cylinder's closed cousin, the torus of all points at
-// distance 0.5 from the unit circle in R^3, by closest points. Prints the verdict.
+// Whitney's construction for a manifold that only the user knows: a cylinder's closed cousin, the torus of all points
+// at distance 0.5 from the unit circle in R^3, by closest points. Prints the verdict.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

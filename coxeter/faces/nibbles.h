@@ -9,8 +9,8 @@
 #endif
 
 // The code below depends on the instructions that whoever compiles it allows. So it, and everything inline that is made
-// of it, is in a namespace named after them: copies that differ have different names, and the linker never takes one for
-// the other.
+// of it, is in a namespace named after them: copies that differ have different names, and the linker never takes one
+// for the other.
 #if defined(__BMI2__) && defined(__AVX2__) && defined(__AVX512F__)
 #define WHITNEY_INSTRUCTION_SET with_bmi2_avx512
 #elif defined(__BMI2__) && defined(__AVX2__)

@@ -55,9 +55,8 @@ void compute_with_eigen() {
   expect(std::abs(solver.eigenvalues().sum() - 2 * A.trace()) < 1e-12, "Eigen finds eigenvalues");
   // Its matrices are welcome where the library takes one.
   const Eigen::MatrixXd Q = Eigen::HouseholderQR<Eigen::MatrixXd>(A.topLeftCorner(3, 3)).householderQ();
-  const whitney::Function f = whitney::rotate(whitney::parse_equations(std::vector<std::string>{"x", "y", "z"},
-                                                                       std::vector<std::string>{"x^2+y^2+z^2-1"}),
-                                              Q);
+  const whitney::Function f = whitney::rotate(
+      whitney::parse_equations(std::vector<std::string>{"x", "y", "z"}, std::vector<std::string>{"x^2+y^2+z^2-1"}), Q);
   expect(f.ambient_dim() == 3, "rotated by a matrix of Eigen's");
 }
 #else

@@ -5,8 +5,8 @@
 #include <limits>
 #include <random>
 
-#include <Eigen/LU>
 #include <gtest/gtest.h>
+#include <Eigen/LU>
 
 #include <coxeter/base/eigen_view.h>
 #include <coxeter/base/error.h>
@@ -133,7 +133,8 @@ double least_volume_ratio(const coxeter::Triangulation& t, const DisplacementMap
     Eigen::MatrixXd before(d, d), after(d, d);
     const auto v = s.vertices();
     for (int i = 0; i < d; ++i) {
-      before.col(i) = as_eigen(position(t, none, v[static_cast<std::size_t>(i) + 1])) - as_eigen(position(t, none, v[0]));
+      before.col(i) =
+          as_eigen(position(t, none, v[static_cast<std::size_t>(i) + 1])) - as_eigen(position(t, none, v[0]));
       after.col(i) = as_eigen(position(t, u, v[static_cast<std::size_t>(i) + 1])) - as_eigen(position(t, u, v[0]));
     }
     least = std::min(least, after.determinant() / before.determinant());

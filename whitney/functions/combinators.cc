@@ -243,8 +243,7 @@ Function multiply_values(Function f, std::span<const double> factors) {
   require_size("multiply_values: factors", factors.size(), static_cast<std::size_t>(f.codim()));
   require_finite("multiply_values: factors", all_finite(factors));
   if (std::ranges::find(factors, 0.0) != factors.end()) throw InvalidInput("multiply_values: a factor is 0");
-  return Function(std::make_shared<MultipliedModel>(
-      std::move(f), std::vector<double>(factors.begin(), factors.end())));
+  return Function(std::make_shared<MultipliedModel>(std::move(f), std::vector<double>(factors.begin(), factors.end())));
 }
 
 Function permute_variables(Function f, std::span<const int> permutation) {

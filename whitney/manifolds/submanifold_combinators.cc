@@ -262,7 +262,8 @@ Submanifold rotate(Submanifold M, const Matrix& Q) {
 }
 
 Submanifold translate(Submanifold M, std::span<const double> b) {
-  require(std::ssize(b) == M.ambient_dim(), "translate: b must have d = " + std::to_string(M.ambient_dim()) + " entries");
+  require(std::ssize(b) == M.ambient_dim(),
+          "translate: b must have d = " + std::to_string(M.ambient_dim()) + " entries");
   require(all_finite(b), "translate: b has an entry that is not finite");
   return moved(std::move(M), Translation{{b.begin(), b.end()}});
 }

@@ -160,7 +160,7 @@ bool SeedSearch::search(std::span<const double> x, std::size_t limit, Crossing& 
 
   bool any_inside = false, is_found = false;
   any_rejected_ = false;
-  for_each_around(start, limit - std::min(limit, examined), [&](const FullSimplex& simplex) {
+  for_each_around(z, limit - std::min(limit, examined), [&](const FullSimplex& simplex) {
     ++examined;
     if (!load(simplex)) return true;
     any_inside = true;

@@ -100,8 +100,9 @@ TEST(Combinators, MultiplyValues) {
 
 TEST(Combinators, Chain) {
   const int d = 10;
-  Function f =
-      scale(translate(rotate(embed(flat_torus().function, d), coxeter::random_rotation(d, 3)), std::vector<double>(d, 1.0)), 2);
+  Function f = scale(
+      translate(rotate(embed(flat_torus().function, d), coxeter::random_rotation(d, 3)), std::vector<double>(d, 1.0)),
+      2);
   check(f);
   // The image of a point of the torus.
   Eigen::VectorXd p = Eigen::VectorXd::Zero(d);

@@ -6,10 +6,10 @@
 
 #include "trace_cases.h"
 
+#include <coxeter/base/eigen_view.h>
 #include <gudhi/Coxeter_triangulation.h>
 #include <gudhi/Implicit_manifold_intersection_oracle.h>
 #include <gudhi/Manifold_tracing.h>
-#include <coxeter/base/eigen_view.h>
 #include <whitney/tracing/trace.h>
 
 #include <set>
