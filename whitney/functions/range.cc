@@ -135,6 +135,13 @@ Range wave(const Range& a, double top, Range SinCos::* part) {
 
 }  // namespace
 
+bool rounds_to_nearest() {
+  const volatile double one = 1, half_ulp = 0x1p-53, small = 0x1p-1022, least = 0x1p-1074;
+  const volatile double down = one + half_ulp, up = (one + 0x1p-52) + half_ulp, negative = -one - half_ulp;
+  const volatile double subnormal = small * 0.5, doubled = least + least;
+  return down == 1 && up == 1 + 0x1p-51 && negative == -1 && subnormal > 0 && doubled == 0x1p-1073;
+}
+
 Range pi_range() { return {0x1.921fb54442d18p+1, 0x1.921fb54442d19p+1}; }
 
 Range operator/(const Range& a, const Range& b) {

@@ -99,6 +99,10 @@ Range cosh(const Range& a);
 Range tanh(const Range& a);
 Range abs(const Range& a);
 
+/// Whether arithmetic of this thread is what Range rests on: to nearest, with subnormal numbers. Asked once per
+/// certificate, as a library may have changed it.
+bool rounds_to_nearest();
+
 /// pi.
 Range pi_range();
 

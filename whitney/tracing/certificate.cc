@@ -55,6 +55,10 @@ class Certifier {
       : f_(f), triangulation_(triangulation), trace_(trace), options_(options), d_(f.ambient_dim()) {}
 
   IsotopyCertificate run() {
+    if (!rounds_to_nearest()) {
+      refuse(Verdict::kNotCovered, "this process does not round to the nearest double, or flushes small ones to zero");
+      return std::move(result_);
+    }
     result_.has_exact_constants = f_.has_exact_constants();
     if (is_covered() && bound_value_errors()) {
       list_vertices();
@@ -213,14 +217,12 @@ bool Certifier::check_stars() {
 
 void Certifier::add_place(std::size_t v, double local_drop) {
   const StarReport& report = reports_[v];
-  // Both numbers are about linear in the edge length.
-  const double excess = std::max(report.radius, local_drop);
-  const bool has_advice = (report.is_regular() || report.outcome == StarReport::Outcome::kIrregular) &&
-                          excess < std::numeric_limits<double>::infinity();
-  const double edge_length = has_advice ? 0.9 * triangulation_.edge_length() / excess : 0;
+  // Both numbers are about linear in the edge length as long as they are small.
+  const bool has_advice = report.is_regular() || report.outcome == StarReport::Outcome::kIrregular;
+  const double factor = has_advice ? std::max(0.9 / std::max(report.radius, local_drop), 0.25) : 0.5;
+  const double edge_length = factor * triangulation_.edge_length();
   double& advised = result_.advised_edge_length;
-  if (result_.places.empty() && has_advice) advised = edge_length;
-  advised = has_advice ? std::min(advised, edge_length) : 0;
+  advised = result_.places.empty() ? edge_length : std::min(advised, edge_length);
   if (result_.places.size() >= options_.max_places) return;
   IsotopyCertificate::Place place;
   place.point.resize(d_);

@@ -40,7 +40,7 @@ struct IsotopyCertificate {
     std::string failure;        ///< "irregular", "second derivatives unbounded", ...
     double radius = 0;          ///< estimate of the spectral radius of B there: below 1 is wanted
     double drop = 0;            ///< bound for the sum of the hat functions' changes there: below 1 is wanted
-    double edge_length = 0;     ///< estimate: where this place would pass; 0: no idea
+    double edge_length = 0;     ///< estimate: where this place would pass; half of today's where nothing is known
   };
 
   Verdict verdict = Verdict::kNotCovered;
@@ -50,7 +50,7 @@ struct IsotopyCertificate {
   std::vector<Place> places;
   double worst_radius = 0;        ///< estimate, over all stars
   double worst_drop = 0;          ///< largest local drop
-  double advised_edge_length = 0; ///< estimate: the edge length at which all places would pass; 0: no idea
+  double advised_edge_length = 0; ///< estimate: the edge length at which all places would pass; 0: none fails
   /// Proved when certified: the isotopy moves no point of the complex further, so both Hausdorff distances between
   /// complex and manifold are at most this (a length).
   double distance_bound = 0;

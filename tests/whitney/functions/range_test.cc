@@ -165,6 +165,13 @@ TEST(Range, OutsideOfDomainsIsEverything) {
 
 TEST(Range, ThisBuildRoundsAsTheProofAssumes) {
   EXPECT_EQ(std::fegetround(), FE_TONEAREST);
+  EXPECT_TRUE(rounds_to_nearest());
+  for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
+    std::fesetround(mode);
+    const bool is_noticed = !rounds_to_nearest();
+    std::fesetround(FE_TONEAREST);
+    EXPECT_TRUE(is_noticed);
+  }
   std::mt19937_64 rng(5);
   for (int i = 0; i < 100'000; ++i) {
     const double x = any_double(rng);
