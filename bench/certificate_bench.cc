@@ -45,7 +45,10 @@ std::vector<std::string> coordinates(int d) {
 }
 
 Problem sphere(int n, int d, std::vector<double> edge_lengths) {
-  Problem p{"S^" + std::to_string(n) + " R^" + std::to_string(d), coordinates(d), {"-1"}, std::vector<double>(d, 0.0),
+  Problem p{"S^" + std::to_string(n) + " R^" + std::to_string(d),
+            coordinates(d),
+            {"-1"},
+            std::vector<double>(d, 0.0),
             std::move(edge_lengths)};
   for (int i = 1; i <= n + 1; ++i) p.equations[0] += "+x" + std::to_string(i) + "^2";
   for (int i = n + 2; i <= d; ++i) p.equations.push_back("x" + std::to_string(i));
@@ -54,7 +57,10 @@ Problem sphere(int n, int d, std::vector<double> edge_lengths) {
 }
 
 Problem flat_torus(int d, std::vector<double> edge_lengths) {
-  Problem p{"T^2 R^" + std::to_string(d), coordinates(d), {"x1^2+x2^2-1", "x3^2+x4^2-1"}, std::vector<double>(d, 0.0),
+  Problem p{"T^2 R^" + std::to_string(d),
+            coordinates(d),
+            {"x1^2+x2^2-1", "x3^2+x4^2-1"},
+            std::vector<double>(d, 0.0),
             std::move(edge_lengths)};
   for (int i = 5; i <= d; ++i) p.equations.push_back("x" + std::to_string(i));
   p.seed[0] = p.seed[2] = 1;
@@ -63,38 +69,38 @@ Problem flat_torus(int d, std::vector<double> edge_lengths) {
 
 std::vector<Problem> table() {
   const std::vector<std::string> xyz{"x", "y", "z"};
-  std::vector<Problem> all{sphere(1, 2, {0.7}),
-                           sphere(2, 3, {0.8, 0.7, 0.1}),
-                           {"torus of revolution", xyz, {"(x^2+y^2+z^2+3)^2-16*(x^2+y^2)"}, {3, 0, 0}, {0.4, 0.27, 0.25, 0.1}},
-                           {"chair",
-                            xyz,
-                            {"(x^2+y^2+z^2-0.8)^2-0.4*((z-1)^2-2*x^2)*((z+1)^2-2*y^2)"},
-                            {0, 0, std::sqrt((0.8 + std::sqrt(0.4)) / (1 + std::sqrt(0.4)))},
-                            {0.07, 0.04}},
-                           {"wavy sphere", xyz, {"x^2+y^2+z^2+0.1*(sin(5*x)+sin(5*y)+cos(5*z))-1"}, {1, 0, 0}, {0.17, 0.1}},
-                           flat_torus(4, {0.6, 0.55, 0.5, 0.3}),
-                           {"trefoil R^4",
-                            {"x1", "y1", "x2", "y2"},
-                            {"x1^2-y1^2+x2^3-3*x2*y2^2", "2*x1*y1+3*x2^2*y2-y2^3", "x1^2+y1^2+x2^2+y2^2-1"},
-                            {0, 0.6558, 0.7549, 0},
-                            {0.15, 0.13, 0.02}},
-                           sphere(2, 6, {0.7, 0.6, 0.3}),
-                           sphere(3, 6, {0.6, 0.5, 0.4}),
-                           {"SO(3) R^6",
-                            {"u1", "u2", "u3", "v1", "v2", "v3"},
-                            {"u1^2+u2^2+u3^2-1", "v1^2+v2^2+v3^2-1", "u1*v1+u2*v2+u3*v3"},
-                            {1, 0, 0, 0, 1, 0},
-                            {0.3}},
-                           flat_torus(8, {0.5, 0.4}),
-                           flat_torus(10, {0.46, 0.3}),
-                           {"dense R^8",
-                            coordinates(8),
-                            {"x1^2+x2^2+0.2*sin(x3*x5)-1", "x3^2+x4^2+0.2*cos(x1+x6)-1.1",
-                             "exp(0.5*x5)-1+0.2*sin(x1*x2)+x6*0.3", "x6+0.3*x6^3-0.2*cos(x3+x2*x7)",
-                             "x7+0.2*sin(x1*x4+x8)", "x8+0.1*exp(x2*x3)-0.3*x5"},
-                            {1, 0, 1, 0, 0, 0, 0, 0},
-                            {0.2}},
-                           sphere(1, 30, {0.3})};
+  std::vector<Problem> all{
+      sphere(1, 2, {0.7}),
+      sphere(2, 3, {0.8, 0.7, 0.1}),
+      {"torus of revolution", xyz, {"(x^2+y^2+z^2+3)^2-16*(x^2+y^2)"}, {3, 0, 0}, {0.4, 0.27, 0.25, 0.1}},
+      {"chair",
+       xyz,
+       {"(x^2+y^2+z^2-0.8)^2-0.4*((z-1)^2-2*x^2)*((z+1)^2-2*y^2)"},
+       {0, 0, std::sqrt((0.8 + std::sqrt(0.4)) / (1 + std::sqrt(0.4)))},
+       {0.07, 0.04}},
+      {"wavy sphere", xyz, {"x^2+y^2+z^2+0.1*(sin(5*x)+sin(5*y)+cos(5*z))-1"}, {1, 0, 0}, {0.17, 0.1}},
+      flat_torus(4, {0.6, 0.55, 0.5, 0.3}),
+      {"trefoil R^4",
+       {"x1", "y1", "x2", "y2"},
+       {"x1^2-y1^2+x2^3-3*x2*y2^2", "2*x1*y1+3*x2^2*y2-y2^3", "x1^2+y1^2+x2^2+y2^2-1"},
+       {0, 0.6558, 0.7549, 0},
+       {0.15, 0.13, 0.02}},
+      sphere(2, 6, {0.7, 0.6, 0.3}),
+      sphere(3, 6, {0.6, 0.5, 0.4}),
+      {"SO(3) R^6",
+       {"u1", "u2", "u3", "v1", "v2", "v3"},
+       {"u1^2+u2^2+u3^2-1", "v1^2+v2^2+v3^2-1", "u1*v1+u2*v2+u3*v3"},
+       {1, 0, 0, 0, 1, 0},
+       {0.3}},
+      flat_torus(8, {0.5, 0.4}),
+      flat_torus(10, {0.46, 0.3}),
+      {"dense R^8",
+       coordinates(8),
+       {"x1^2+x2^2+0.2*sin(x3*x5)-1", "x3^2+x4^2+0.2*cos(x1+x6)-1.1", "exp(0.5*x5)-1+0.2*sin(x1*x2)+x6*0.3",
+        "x6+0.3*x6^3-0.2*cos(x3+x2*x7)", "x7+0.2*sin(x1*x4+x8)", "x8+0.1*exp(x2*x3)-0.3*x5"},
+       {1, 0, 1, 0, 0, 0, 0, 0},
+       {0.2}},
+      sphere(1, 30, {0.3})};
   // The regular pentagon with the side (0,0) (1,0).
   std::vector<double> pentagon;
   for (double x = 1, y = 0, angle = 0.4 * std::numbers::pi; pentagon.size() < 6; angle += 0.4 * std::numbers::pi) {
@@ -228,8 +234,8 @@ void try_random(int count, int seed) {
       if (shape_of(t) != shape_of(u)) {
         ++wrong;
         const Shape a = shape_of(t), b = shape_of(u);
-        std::printf("WRONG seed %d i %d d %d k %d L %g: chi %ld components %zu, fine chi %ld components %zu\n", seed, i, d,
-                    k, edge_length, long(a.euler_characteristic), a.components, long(b.euler_characteristic),
+        std::printf("WRONG seed %d i %d d %d k %d L %g: chi %ld components %zu, fine chi %ld components %zu\n", seed, i,
+                    d, k, edge_length, long(a.euler_characteristic), a.components, long(b.euler_characteristic),
                     b.components);
         for (const auto& e : equations) std::printf("  %s\n", e.c_str());
       }

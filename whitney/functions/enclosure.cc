@@ -114,9 +114,7 @@ void derivatives_of_power(const Range& a, int n, Range* phi) {
 }
 
 /// An integer whose sums and quotients with its like are not rounded when they are doubles.
-bool is_small_integer(const Range& a) {
-  return a.lo == a.hi && std::fabs(a.lo) <= 0x1p50 && a.lo == std::floor(a.lo);
-}
+bool is_small_integer(const Range& a) { return a.lo == a.hi && std::fabs(a.lo) <= 0x1p50 && a.lo == std::floor(a.lo); }
 
 /// a + sign b where both are integers, else the Range given.
 Range exact_or(const Range& a, const Range& b, const Range& rounded, int sign) {
@@ -181,7 +179,8 @@ void Enclosure::combine(const Node& node, std::size_t n, int order, Workspace& w
   };
   w.values_[n] = compute(w.values_, node.a, node.b);
   if (order < 1) return;
-  for (const std::size_t i : node.inputs) w.gradients_[n * d + i] = compute(w.gradients_, node.a * d + i, node.b * d + i);
+  for (const std::size_t i : node.inputs)
+    w.gradients_[n * d + i] = compute(w.gradients_, node.a * d + i, node.b * d + i);
   if (order < 2 || node.degree < 2) return;
   for (const std::size_t i : node.inputs) {
     for (const std::size_t j : node.inputs) {

@@ -12,8 +12,8 @@
 
 namespace whitney {
 
-/// What is proved about a map f: R^d -> R^k over a box: Ranges that hold all values, gradients and second derivatives of
-/// f there. Immutable; safe to use from several threads, with a Workspace for each.
+/// What is proved about a map f: R^d -> R^k over a box: Ranges that hold all values, gradients and second derivatives
+/// of f there. Immutable; safe to use from several threads, with a Workspace for each.
 ///
 /// Where an operation is not defined, or not twice differentiable, at some point of the box (a root, logarithm or power
 /// at 0, a quotient by 0, abs at 0, asin beyond 1), the Ranges that come of it are everything; bounded second
@@ -56,14 +56,25 @@ class Enclosure {
 
  private:
   friend class EnclosureBuilder;
-  enum class Op : std::uint8_t { kInput, kConstant, kAdd, kSubtract, kScale, kProduct, kQuotient, kPower, kPow, kFunction };
+  enum class Op : std::uint8_t {
+    kInput,
+    kConstant,
+    kAdd,
+    kSubtract,
+    kScale,
+    kProduct,
+    kQuotient,
+    kPower,
+    kPow,
+    kFunction
+  };
   struct Node {
     Op op = Op::kConstant;
-    TapeOp function = TapeOp::kAbs;      ///< kFunction
-    std::uint32_t a = 0, b = 0;          ///< operands, before their users; kInput: a is its index
-    int exponent = 0;                    ///< kPower
-    Range constant;                      ///< kConstant; kScale: times a
-    int degree = 0;                      ///< 0..2 of a polynomial, 3 of anything else
+    TapeOp function = TapeOp::kAbs;       ///< kFunction
+    std::uint32_t a = 0, b = 0;           ///< operands, before their users; kInput: a is its index
+    int exponent = 0;                     ///< kPower
+    Range constant;                       ///< kConstant; kScale: times a
+    int degree = 0;                       ///< 0..2 of a polynomial, 3 of anything else
     std::vector<std::uint32_t> inputs{};  ///< those that it depends on, increasing
   };
 

@@ -16,18 +16,18 @@ namespace {
 using Node = EnclosureBuilder::Node;
 
 constexpr std::array<std::pair<std::string_view, TapeOp>, 13> kFunctions{{{"sqrt", TapeOp::kSqrt},
-                                                                         {"sin", TapeOp::kSin},
-                                                                         {"cos", TapeOp::kCos},
-                                                                         {"tan", TapeOp::kTan},
-                                                                         {"asin", TapeOp::kAsin},
-                                                                         {"acos", TapeOp::kAcos},
-                                                                         {"atan", TapeOp::kAtan},
-                                                                         {"sinh", TapeOp::kSinh},
-                                                                         {"cosh", TapeOp::kCosh},
-                                                                         {"tanh", TapeOp::kTanh},
-                                                                         {"exp", TapeOp::kExp},
-                                                                         {"log", TapeOp::kLog},
-                                                                         {"abs", TapeOp::kAbs}}};
+                                                                          {"sin", TapeOp::kSin},
+                                                                          {"cos", TapeOp::kCos},
+                                                                          {"tan", TapeOp::kTan},
+                                                                          {"asin", TapeOp::kAsin},
+                                                                          {"acos", TapeOp::kAcos},
+                                                                          {"atan", TapeOp::kAtan},
+                                                                          {"sinh", TapeOp::kSinh},
+                                                                          {"cosh", TapeOp::kCosh},
+                                                                          {"tanh", TapeOp::kTanh},
+                                                                          {"exp", TapeOp::kExp},
+                                                                          {"log", TapeOp::kLog},
+                                                                          {"abs", TapeOp::kAbs}}};
 constexpr int kDeepest = 500;
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }

@@ -6,8 +6,8 @@ namespace {
 
 using outward::down, outward::up;
 
-// ln 2 and pi / 2 as a double with few digits, whose small multiples are exact, plus a remainder that is enclosed by the
-// neighbors of its nearest double.
+// ln 2 and pi / 2 as a double with few digits, whose small multiples are exact, plus a remainder that is enclosed by
+// the neighbors of its nearest double.
 constexpr double kLn2 = 0x1.62e42feep-1, kLn2Rest = 0x1.a39ef35793c76p-33;
 constexpr double kHalfPi = 0x1.921fb544p+0, kHalfPiRest = 0x1.0b4611a626331p-34;
 Range neighbors(double x) { return {down(x), up(x)}; }
@@ -124,7 +124,7 @@ bool may_hold(const Range& a, double phase, double period) {
   return std::floor((a.hi - phase) / period + 1e-9) >= std::ceil((a.lo - phase) / period - 1e-9);
 }
 
-Range wave(const Range& a, double top, Range SinCos::* part) {
+Range wave(const Range& a, double top, Range SinCos::*part) {
   if (!(a.lo >= -kLargestAngle && a.hi <= kLargestAngle && a.hi - a.lo < 6.28)) return {-1, 1};
   constexpr double kPi = 2 * (kHalfPi + kHalfPiRest);
   Range r = hull(sin_cos_at(a.lo).*part, sin_cos_at(a.hi).*part);

@@ -22,8 +22,8 @@ namespace whitney {
 /// one. **Proof.** For normal x, ulp(x) <= 2^-52 |x|, and ulp(x) is a double, so fl(2^-52 |x| + eta) >= ulp(x) with eta
 /// = 2^-1074, fused or not; for subnormal x it is at least eta = ulp(x). Rounding is monotone: fl(x + s) >= fl(x +
 /// ulp(x)) >= the neighbor. Where a product r = a b is fused into the addition, fl(r + s) >= fl(r) = x, enough when
-/// r <= x; when r > x, r + s > x + ulp(x), so fl(r + s) is at least the neighbor, which is above r. [] An overflow to the
-/// wrong side is put back to the largest double.
+/// r <= x; when r > x, r + s > x + ulp(x), so fl(r + s) is at least the neighbor, which is above r. [] An overflow to
+/// the wrong side is put back to the largest double.
 ///
 /// Why not CGAL's: it switches the rounding mode, and it has no exp, log, sin. The functions here are Taylor series run
 /// in this arithmetic itself with their remainders as intervals, so that they need no bound on anybody's libm.
@@ -62,8 +62,12 @@ inline double down(double x) { return x <= DBL_MAX ? x - (std::fabs(x) * kUlp + 
 inline double radius(const Range& a, double m) { return outward::up(std::max(a.hi - m, m - a.lo)); }
 inline Range hull(const Range& a, const Range& b) { return {std::min(a.lo, b.lo), std::max(a.hi, b.hi)}; }
 
-inline Range operator+(const Range& a, const Range& b) { return {outward::down(a.lo + b.lo), outward::up(a.hi + b.hi)}; }
-inline Range operator-(const Range& a, const Range& b) { return {outward::down(a.lo - b.hi), outward::up(a.hi - b.lo)}; }
+inline Range operator+(const Range& a, const Range& b) {
+  return {outward::down(a.lo + b.lo), outward::up(a.hi + b.hi)};
+}
+inline Range operator-(const Range& a, const Range& b) {
+  return {outward::down(a.lo - b.hi), outward::up(a.hi - b.lo)};
+}
 inline Range operator-(const Range& a) { return {-a.hi, -a.lo}; }
 inline Range operator*(const Range& a, const Range& b) {
   const double p = a.lo * b.lo, q = a.lo * b.hi, r = a.hi * b.lo, s = a.hi * b.hi;

@@ -69,21 +69,18 @@ class Certifier {
   }
 
  private:
-  std::span<const std::int32_t> vertex(std::size_t v) const {
-    return trace_.vertex_coordinates().subspan(v * d_, d_);
-  }
+  std::span<const std::int32_t> vertex(std::size_t v) const { return trace_.vertex_coordinates().subspan(v * d_, d_); }
   bool refuse(Verdict verdict, std::string reason) {
     result_.verdict = verdict;
     result_.reason = std::move(reason);
     return false;
   }
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
   bool is_stopped(std::size_t num_stars) const {
     const RunControl& run = options_.run;
     return seconds() > run.time_limit ||
-           (run.progress && !run.progress({.phase = "certify", .simplices = num_stars, .evaluations = 0, .seconds = seconds()}));
+           (run.progress &&
+            !run.progress({.phase = "certify", .simplices = num_stars, .evaluations = 0, .seconds = seconds()}));
   }
   bool is_covered();
   bool bound_value_errors();
@@ -92,7 +89,7 @@ class Certifier {
   bool check_inequalities(const StarCheck& check, std::span<const std::int32_t> z);
   void conclude();
   void add_place(std::size_t v, double local_drop);
-  /// Per vertex: the largest drops among the tested vertices whose coordinates differ by at most 1.
+  /// Per vertex: the largest drops among the tested vertices whose coordinates differ by at most 2.
   std::vector<Drops> drops_around() const;
 
   const Enclosure& f_;
@@ -130,7 +127,8 @@ bool Certifier::bound_value_errors() {
     for (std::size_t a = 0; a < k; ++a) {
       const double error = radius(jets_.values[a], trace_.vertex_values()[v * k + a]);
       if (!(error <= std::numeric_limits<double>::max())) {
-        return refuse(Verdict::kNotCertified, "f is not bounded near a lattice vertex at which the tracer evaluated it");
+        return refuse(Verdict::kNotCertified,
+                      "f is not bounded near a lattice vertex at which the tracer evaluated it");
       }
       result_.value_errors[a] = std::max(result_.value_errors[a], error);
     }
@@ -235,7 +233,7 @@ void Certifier::add_place(std::size_t v, double local_drop) {
 }
 
 std::vector<Drops> Certifier::drops_around() const {
-  // Maxima over all vertices with the same first three coordinates, up to 1: coarser than needed, and quick.
+  // Maxima over all vertices whose first three coordinates differ by at most 2: coarser than needed, and quick.
   using Key = std::array<std::int32_t, 3>;
   struct Hash {
     std::size_t operator()(const Key& key) const {
@@ -255,8 +253,8 @@ std::vector<Drops> Certifier::drops_around() const {
   std::vector<Drops> around(trace_.num_vertices());
   for (const std::uint32_t v : tested_) {
     const auto [entry, is_new] = near.try_emplace(key(v, {}));
-    for (int shift = 0; is_new && shift < 27; ++shift) {
-      const auto found = own.find(key(v, {shift % 3 - 1, shift / 3 % 3 - 1, shift / 9 - 1}));
+    for (int shift = 0; is_new && shift < 125; ++shift) {
+      const auto found = own.find(key(v, {shift % 5 - 2, shift / 5 % 5 - 2, shift / 25 - 2}));
       if (found != own.end()) raise(entry->second, found->second);
     }
     around[v] = entry->second;
@@ -273,18 +271,18 @@ void Certifier::conclude() {
   for (const std::uint32_t v : tested_) raise(largest, reports_[v].drop);
   result_.worst_drop = total(largest);
   if (!(result_.worst_drop < 1)) {
-    // A point of a simplex moves through stars of vertices next to its corners only, as long as its drop is below 1.
+    // A point of the complex in the cell of a d-simplex that has a crossed face s moves, as long as its drop is below
+    // 1, through stars of vertices of that d-simplex and their neighbors only: within 2 of the base of s.
     const std::vector<Drops> around = drops_around();
     result_.worst_drop = 0;
     std::vector<std::pair<double, std::uint32_t>> failing;
     for (std::size_t s = 0; s < trace_.num_simplices(); ++s) {
-      Drops local{};
       std::uint32_t worst = corners_[s * (k + 1)];
-      for (std::size_t q = 0; q <= k; ++q) {
+      for (std::size_t q = 1; q <= k; ++q) {
         const std::uint32_t v = corners_[s * (k + 1) + q];
-        raise(local, around[v]);
         if (reports_[v].total_drop() > reports_[worst].total_drop()) worst = v;
       }
+      const Drops& local = around[trace_.base(s)];
       const double drop = total(local);
       result_.worst_drop = std::max(result_.worst_drop, drop);
       if (!(drop < 1)) failing.emplace_back(drop, worst);
@@ -316,8 +314,8 @@ IsotopyCertificate certify_trace(const Enclosure& f, const coxeter::Triangulatio
   if (f.ambient_dim() != d || triangulation.ambient_dim() != d || f.codim() != trace.codim()) {
     throw InvalidInput("certificate: f, the triangulation and the trace have different dimensions");
   }
-  if (options.inequalities && (options.inequalities->ambient_dim() != d ||
-                               options.inequalities->codim() != trace.domain.num_given())) {
+  if (options.inequalities &&
+      (options.inequalities->ambient_dim() != d || options.inequalities->codim() != trace.domain.num_given())) {
     throw InvalidInput("certificate: the inequalities are not those of the trace");
   }
   return Certifier(f, triangulation, trace, options).run();

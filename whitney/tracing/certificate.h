@@ -27,7 +27,8 @@ struct CertifyOptions {
 /// CERTIFICATE.md, which states what is proved and from what.
 struct IsotopyCertificate {
   enum class Verdict {
-    /// Every star test holds and the sum over the pieces of time of the largest drop near a simplex is below 1: there is
+    /// Every star test holds and the sum over the pieces of time of the largest drop near a simplex is below 1: there
+    /// is
     /// a union of components of f = 0 on which Df has rank k, ambient isotopic to the traced complex.
     kCertified,
     kNotCertified,  ///< some star test or drop fails; `places` lists where. The complex may still be right
@@ -48,9 +49,9 @@ struct IsotopyCertificate {
   std::size_t num_stars = 0;  ///< stars tested: the vertices of the simplices crossed
   std::size_t num_failing = 0;
   std::vector<Place> places;
-  double worst_radius = 0;        ///< estimate, over all stars
-  double worst_drop = 0;          ///< largest local drop
-  double advised_edge_length = 0; ///< estimate: the edge length at which all places would pass; 0: none fails
+  double worst_radius = 0;         ///< estimate, over all stars
+  double worst_drop = 0;           ///< largest local drop
+  double advised_edge_length = 0;  ///< estimate: the edge length at which all places would pass; 0: none fails
   /// Proved when certified: the isotopy moves no point of the complex further, so both Hausdorff distances between
   /// complex and manifold are at most this (a length).
   double distance_bound = 0;

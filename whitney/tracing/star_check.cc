@@ -8,9 +8,9 @@
 
 #include <coxeter/base/error.h>
 
-// Symbols as in CERTIFICATE.md. Rounding: every bound is a sum of products of numbers >= 0, whose relative error is below
-// 2 n 2^-53 for n terms; `above` covers n up to 4000. A signed sum of n products is off by at most kGamma times the
-// sum of their absolute values, n up to 2000.
+// Symbols as in CERTIFICATE.md. Rounding: every bound is a sum of products of numbers >= 0, whose relative error is
+// below 2 n 2^-53 for n terms; `above` covers n up to 4000. A signed sum of n products is off by at most kGamma times
+// the sum of their absolute values, n up to 2000.
 
 namespace whitney {
 namespace {
@@ -197,7 +197,8 @@ bool StarCheck::load(std::span<const std::int32_t> vertex) {
   enclose_vertex(vertex, vertex_box_);
   f_.evaluate(vertex_box_, 1, jets_, workspace_);
   bool is_curved = false;
-  for (const Equation& equation : equations_) is_curved = is_curved || !(equation.is_linear || equation.is_curvature_known);
+  for (const Equation& equation : equations_)
+    is_curved = is_curved || !(equation.is_linear || equation.is_curvature_known);
   if (is_curved) {
     enclose_star(vertex_box_, star_box_);
     f_.evaluate(star_box_, 2, star_jets_, workspace_);
@@ -452,8 +453,8 @@ void StarCheck::enclose_products_of(int a) {
       if (m == 0) continue;
       const Equation& other = equations_[q];
       const double value = value_[q] + 0.5 * (other.quadratic_low + other.quadratic_high);
-      const double width = 0.5 * (other.quadratic_high - other.quadratic_low) + other.interpolation_error +
-                           value_radius_[q];
+      const double width =
+          0.5 * (other.quadratic_high - other.quadratic_low) + other.interpolation_error + value_radius_[q];
       shift += value * m;
       slack += (width + kGamma * (std::fabs(value_[q]) + other.quadratic_high - other.quadratic_low)) * std::fabs(m);
       rounding += std::fabs(m) * (radius_sum_[q] + kGamma * gradient_sum_[q]);

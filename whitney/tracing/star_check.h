@@ -56,14 +56,14 @@ class StarCheck {
     double scale = 1;  ///< a power of 2
     double value_error = 0;
     bool is_linear = false, is_curvature_known = false;
-    std::vector<double> hessian;    ///< d x d, middle
-    std::vector<double> curvature;  ///< pairs i < j <= d: half of |a_ij|
-    std::vector<double> column_sums;  ///< d: sum over i of |hessian_ij|
-    double plus = 0, minus = 0;       ///< sums of the positive and of the negative a_ij
-    double rounding = 0;              ///< the largest sum of a row of what hessian may be off by
-    std::vector<double> spread;            ///< d: Cartesian remainder, sum over j of R_ij reach_j
-    std::vector<double> lattice_spread;    ///< d: the remainder along each lattice direction
-    double interpolation_error = 0;        ///< e: |g^ - g| on the star
+    std::vector<double> hessian;                   ///< d x d, middle
+    std::vector<double> curvature;                 ///< pairs i < j <= d: half of |a_ij|
+    std::vector<double> column_sums;               ///< d: sum over i of |hessian_ij|
+    double plus = 0, minus = 0;                    ///< sums of the positive and of the negative a_ij
+    double rounding = 0;                           ///< the largest sum of a row of what hessian may be off by
+    std::vector<double> spread;                    ///< d: Cartesian remainder, sum over j of R_ij reach_j
+    std::vector<double> lattice_spread;            ///< d: the remainder along each lattice direction
+    double interpolation_error = 0;                ///< e: |g^ - g| on the star
     double quadratic_low = 0, quadratic_high = 0;  ///< of u H u / 2 over the star
   };
 
@@ -88,16 +88,16 @@ class StarCheck {
   Enclosure::Workspace workspace_;
   Enclosure::Jets jets_, star_jets_;
   std::vector<Range> vertex_box_, star_box_;
-  std::vector<double> value_, value_radius_;          // k
-  std::vector<double> cartesian_gradient_;            // k x d
-  std::vector<double> gradient_, gradient_radius_;    // k x d, lattice
-  std::vector<double> gradient_sum_, radius_sum_;     // k: sums of absolute values of rows
+  std::vector<double> value_, value_radius_;           // k
+  std::vector<double> cartesian_gradient_;             // k x d
+  std::vector<double> gradient_, gradient_radius_;     // k x d, lattice
+  std::vector<double> gradient_sum_, radius_sum_;      // k: sums of absolute values of rows
   std::vector<double> c_, c_cartesian_, differences_;  // k x d; k x d absolute values; k x pairs absolute values
   std::vector<double> c_sum_;                          // k: sum of |c|
   std::vector<double> smooth_low_, smooth_high_, linear_low_, linear_high_;  // k x k
   bool is_empty_ = false;
-  std::vector<double> mid_, spread_, guess_, b_, neumann_;                   // k x k
-  std::vector<double> w_, sigma_, columns_;                                  // k; k; k x d
+  std::vector<double> mid_, spread_, guess_, b_, neumann_;  // k x k
+  std::vector<double> w_, sigma_, columns_;                 // k; k; k x d
   mutable std::vector<double> sort_;
   std::vector<double> scratch_;
 };

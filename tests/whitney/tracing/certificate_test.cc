@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/QR>
 #include <gtest/gtest.h>
+#include <Eigen/QR>
 
 #include <coxeter/base/error.h>
 #include <whitney/functions/expression.h>
@@ -40,8 +40,12 @@ Problem sphere(int n, int d) {
   return p;
 }
 
-Problem in_space(std::string equation, std::vector<double> seed) { return {{"x", "y", "z"}, {std::move(equation)}, std::move(seed)}; }
-Problem in_plane(std::string equation, std::vector<double> seed) { return {{"x", "y"}, {std::move(equation)}, std::move(seed)}; }
+Problem in_space(std::string equation, std::vector<double> seed) {
+  return {{"x", "y", "z"}, {std::move(equation)}, std::move(seed)};
+}
+Problem in_plane(std::string equation, std::vector<double> seed) {
+  return {{"x", "y"}, {std::move(equation)}, std::move(seed)};
+}
 
 Triangulation random_triangulation(int d, double edge_length, int rng_seed) {
   std::mt19937_64 rng(rng_seed * 7919 + 13);
@@ -112,15 +116,15 @@ TEST(Certificate, DistanceBoundHoldsForTheVertices) {
 /// Singular, or with poles: never certified, at any edge length.
 TEST(Certificate, SingularSetsAreNeverCertified) {
   const std::vector<Problem> problems{
-      in_space("x^2+y^2-z^2+0.3*(x^2+y^2+z^2)^2", {0.5, 0, 0.6}),                  // cone
-      in_plane("x^4-x^2+y^2", {1, 0}),                                             // node
-      in_plane("y^2-x^3+x^5", {1, 0}),                                             // cusp
-      in_plane("(x^2+y^2)^2-2*(x^2-y^2)", {1.4142135, 0}),                         // lemniscate
+      in_space("x^2+y^2-z^2+0.3*(x^2+y^2+z^2)^2", {0.5, 0, 0.6}),  // cone
+      in_plane("x^4-x^2+y^2", {1, 0}),                             // node
+      in_plane("y^2-x^3+x^5", {1, 0}),                             // cusp
+      in_plane("(x^2+y^2)^2-2*(x^2-y^2)", {1.4142135, 0}),         // lemniscate
       {{"x", "y", "z"}, {"(x^2+y^2)^2-2*(x^2-y^2)", "z+0.1*x^2"}, {1.4142135, 0, -0.2}},
-      in_space("x^2-y^2*z+0.2*(x^2+y^2+z^2)^2", {0, 1.25, 1.25}),                  // Whitney's umbrella, closed up
-      in_space("(sqrt(x^2+y^2)-1)^2+z^2-1", {2, 0, 0}),                            // horn torus
-      in_space("(x^2+y^2+z^2)^2-4*(x^2+y^2)", {2, 0, 0}),                          // the same, a polynomial
-      in_space("((x+1)^2+y^2+z^2-1)*((x-1)^2+y^2+z^2-1)", {2, 0, 0}),              // tangent spheres
+      in_space("x^2-y^2*z+0.2*(x^2+y^2+z^2)^2", {0, 1.25, 1.25}),      // Whitney's umbrella, closed up
+      in_space("(sqrt(x^2+y^2)-1)^2+z^2-1", {2, 0, 0}),                // horn torus
+      in_space("(x^2+y^2+z^2)^2-4*(x^2+y^2)", {2, 0, 0}),              // the same, a polynomial
+      in_space("((x+1)^2+y^2+z^2-1)*((x-1)^2+y^2+z^2-1)", {2, 0, 0}),  // tangent spheres
       in_space("((x^2+y^2+z^2+3)^2-16*(x^2+y^2))*(((x-6)^2+y^2+z^2+3)^2-16*((x-6)^2+y^2))", {3, 0, 0}),
       in_space("(x^2+y^2+z^2-1)^2", {1, 0, 0}),
       in_space("(x^2+y^2+z^2-1)^3", {1, 0, 0}),
@@ -173,10 +177,10 @@ TEST(Certificate, AMissedHandleIsNeverCertified) {
     std::size_t components;
   };
   const std::vector<Case> cases{
-      {in_space("(sqrt(x^2+y^2)-1.03)^2+z^2-1", {2.03, 0, 0}), 0, 1},                                // a small hole
-      {in_space("((x+1)^2+y^2+z^2-1)*((x-1)^2+y^2+z^2-1)-0.002", {2, 0, 0}), 2, 1},                   // a thin neck
-      {in_space("((x+1.02)^2+y^2+z^2-1)*((x-1.02)^2+y^2+z^2-1)", {2.02, 0, 0}), 2, 1},                // a thin gap
-      {in_plane("x^2+y^2-1-0.5*exp(-400*((x-1)^2+y^2))", {-1, 0}), 0, 1},                             // a small bump
+      {in_space("(sqrt(x^2+y^2)-1.03)^2+z^2-1", {2.03, 0, 0}), 0, 1},                   // a small hole
+      {in_space("((x+1)^2+y^2+z^2-1)*((x-1)^2+y^2+z^2-1)-0.002", {2, 0, 0}), 2, 1},     // a thin neck
+      {in_space("((x+1.02)^2+y^2+z^2-1)*((x-1.02)^2+y^2+z^2-1)", {2.02, 0, 0}), 2, 1},  // a thin gap
+      {in_plane("x^2+y^2-1-0.5*exp(-400*((x-1)^2+y^2))", {-1, 0}), 0, 1},               // a small bump
   };
   for (const Case& c : cases) {
     for (const double edge_length : {1.0, 0.5, 0.3, 0.2, 0.1, 0.05}) {
@@ -186,7 +190,8 @@ TEST(Certificate, AMissedHandleIsNeverCertified) {
       options.homology = false;
       options.links = false;
       const auto topology = topology_of(cell_complex(r.trace).facets, options);
-      EXPECT_EQ(topology.euler_characteristic, c.euler_characteristic) << c.problem.equations[0] << " at " << edge_length;
+      EXPECT_EQ(topology.euler_characteristic, c.euler_characteristic)
+          << c.problem.equations[0] << " at " << edge_length;
       EXPECT_EQ(topology.components, c.components) << c.problem.equations[0] << " at " << edge_length;
     }
   }
