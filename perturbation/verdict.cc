@@ -17,8 +17,8 @@ namespace {
 /// a sum of d + 2 terms, accumulated in order.
 double position_rounding(const PerturbedTriangulation& near) {
   const int d = near.ambient_dim();
-  const Eigen::MatrixXd& linear = near.triangulation().linear();
-  const Eigen::VectorXd& offset = near.triangulation().offset();
+  const Matrix& linear = near.triangulation().linear();
+  const std::vector<double>& offset = near.triangulation().offset();
   double worst = 0;
   for (std::uint32_t v = 0; v < near.num_vertices(); ++v) {
     const auto z = near.lattice_vertex(v);
@@ -149,7 +149,7 @@ class Certifier {
     ++report_.not_certified;
     failing_.emplace_back(margin, s);
     if (worst_ && worst_->first <= margin) return;
-    worst_.emwhitney::text(margin, Witness{near_.simplex(s), centre_of(near_, s), std::move(face), margin, std::move(reason)});
+    worst_.emplace(margin, Witness{near_.simplex(s), centre_of(near_, s), std::move(face), margin, std::move(reason)});
   }
 
   void summarise_margins() {

@@ -208,7 +208,7 @@ void InteriorTrace<Shape>::report_point(const Pending& simplex) {
   for (int q = 0; q <= k_; ++q) sums_[q] /= total;
   for (int c = 0; c < d_; ++c) y_[c] = base[c] + sums_[parts[c]];
   double* x = &points_[std::size_t{simplex.id} * d_];
-  const Eigen::MatrixXd& linear = triangulation_.linear();
+  const Matrix& linear = triangulation_.linear();
   for (int r = 0; r < d_; ++r) x[r] = triangulation_.offset()[r];
   for (int c = 0; c < d_; ++c) {
     const double* column = linear.data() + std::size_t(c) * d_;

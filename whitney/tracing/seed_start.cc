@@ -8,6 +8,7 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
 
+#include <coxeter/base/eigen_view.h>
 #include <whitney/tracing/lattice_values.h>
 
 namespace whitney {
@@ -216,7 +217,7 @@ double SeedStarter::finer_edge_length(std::span<const double> foot) {
   Crossing crossing;
   for (int halvings = 1; halvings <= kMaxHalvings && finer == 0; ++halvings) {
     const double factor = std::ldexp(1.0, -halvings);
-    const coxeter::Triangulation halved(factor * triangulation_.linear(), triangulation_.offset());
+    const coxeter::Triangulation halved(factor * as_eigen(triangulation_.linear()), triangulation_.offset());
     if (find_near(halved, foot, kFinerSimplices, crossing)) finer = factor * L;
   }
   unseen_.emplace_back(std::vector<double>(foot.begin(), foot.end()), finer);

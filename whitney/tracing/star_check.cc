@@ -6,6 +6,9 @@
 #include <limits>
 #include <utility>
 
+#include <Eigen/LU>
+
+#include <coxeter/base/eigen_view.h>
 #include <coxeter/base/error.h>
 
 // Symbols as in CERTIFICATE.md. Rounding: every bound is a sum of products of numbers >= 0, whose relative error is
@@ -91,7 +94,7 @@ StarCheck::StarCheck(const Enclosure& f, const coxeter::Triangulation& triangula
     : f_(f), d_(f.ambient_dim()), k_(f.codim()), pairs_(d_ * (d_ + 1) / 2) {
   if (d_ > kLargestDim) throw InvalidInput("certificate: ambient dimensions beyond 1000 are not supported");
   const std::size_t d = d_, k = k_;
-  const Eigen::MatrixXd& linear = triangulation.linear();
+  const Eigen::MatrixXd linear = as_eigen(triangulation.linear());
   const Eigen::MatrixXd inverse = linear.inverse();
   lambda_.resize(d * d);
   inverse_.resize(d * d);

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include <coxeter/base/eigen_view.h>
 #include <coxeter/base/error.h>
 #include <coxeter/faces/short_partition.h>
 #include <coxeter/tables/lattice_order.h>
@@ -253,7 +254,7 @@ void Tracer<Shape>::list_boundary(TraceResult& out) {
         for (std::uint16_t c : sigma.partition().part(q - 1)) y[c] += after / total;
       }
       const Eigen::VectorXd x =
-          triangulation_.offset() + triangulation_.linear() * Eigen::Map<const Eigen::VectorXd>(y.data(), d_);
+          as_eigen(triangulation_.offset()) + as_eigen(triangulation_.linear()) * Eigen::Map<const Eigen::VectorXd>(y.data(), d_);
       listed.points.insert(listed.points.end(), x.data(), x.data() + d_);
     }
     out.boundary.push_back(std::move(listed));
