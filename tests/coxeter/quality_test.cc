@@ -210,7 +210,7 @@ TEST(SimplexWidth, IsALowerBoundHoweverIllConditioned) {
       Eigen::MatrixXd A = Eigen::MatrixXd::Ones(d, d);
       A.diagonal().setConstant(diagonal);
       const long double exact = width_of_sum(d, static_cast<long double>(diagonal) - 1);  // no rounding
-      const double bound = simplex_width(Triangulation(A, Eigen::VectorXd::Zero(d)));
+      const double bound = simplex_width(Triangulation(A, std::vector<double>(d)));
       EXPECT_LE(bound, exact) << d << " " << shift;
       EXPECT_GE(bound, exact * (1 - 2e-6L - 1e-12L / shift)) << d << " " << shift;
     }
@@ -221,7 +221,7 @@ TEST(SimplexWidth, ClaimsLittleNextToSingularMaps) {
   const double diagonal = 1 + 1e-13;
   Eigen::MatrixXd A = Eigen::MatrixXd::Ones(d, d);
   A.diagonal().setConstant(diagonal);
-  const double bound = simplex_width(Triangulation(A, Eigen::VectorXd::Zero(d)));
+  const double bound = simplex_width(Triangulation(A, std::vector<double>(d)));
   EXPECT_GE(bound, 0);
   EXPECT_LE(bound, width_of_sum(d, static_cast<long double>(diagonal) - 1));
 }
@@ -233,7 +233,7 @@ TEST(SimplexWidth, IsALowerBoundInHighDimensionsToo) {
     Eigen::MatrixXd A = Eigen::MatrixXd::Ones(d, d);
     A.diagonal().setConstant(diagonal);
     const long double exact = width_of_sum(d, static_cast<long double>(diagonal) - 1);
-    const double bound = simplex_width(Triangulation(A, Eigen::VectorXd::Zero(d)));
+    const double bound = simplex_width(Triangulation(A, std::vector<double>(d)));
     EXPECT_LE(bound, exact);
     EXPECT_GE(bound, exact / 5);
   }

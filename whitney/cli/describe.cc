@@ -58,12 +58,16 @@ std::string proved_part(const CertificateSummary& c) {
   return part;
 }
 
-/// ": no proof, since ..", or nothing.
-std::string what_is_no_proof(const CertificateSummary& c) {
-  const bool estimated = c.reach_source == "estimated", modelled = c.feet_source == "modelled";
-  if (!estimated && !modelled) return "";
-  return std::string(": no proof as it stands, since ") + (estimated ? "the reach is an estimate" : "") +
-         (estimated && modelled ? " and " : "") + (modelled ? "the errors of the feet are a model" : "");
+/// What the verdict rests on beyond what is proved: ", if .. and ..", or nothing.
+std::string conditions(const CertificateSummary& c) {
+  std::ostringstream text;
+  text.precision(4);
+  const bool given = c.reach_source == "caller", estimated = c.reach_source == "estimated";
+  if (given) text << "if the reach is at least " << c.reach << " as the caller says";
+  if (estimated) text << "if the reach is at least " << c.reach << ", an estimate";
+  if (c.feet_source == "modelled")
+    text << (given || estimated ? " and " : "if ") << "the errors of the feet are at most what a model says";
+  return text.str();
 }
 
 }  // namespace
@@ -175,16 +179,17 @@ std::string describe_certificate(const Report& report) {
   const double edge_length = *report.edge_length;
   std::ostringstream text;
   text.precision(4);
-  text << c.verdict << (c.cut ? " away from the boundary: " : ": ");
+  const std::string rest = conditions(c);
+  text << c.verdict << (c.cut ? " away from the boundary" : "");
   if (c.verdict == "certified") {
-    text << "the complex is homeomorphic to " << proved_part(c) << ", given its reach " << c.reach << " ("
-         << c.reach_source << ") and feet with errors that are " << c.feet_source << what_is_no_proof(c);
+    text << (rest.empty() ? ": " : ", " + rest + ": ") << "the complex is homeomorphic to " << proved_part(c);
+    if (c.reach_source == "proven") text << ", given its reach " << c.reach << " (proven)";
     text << "\n  margins: worst " << c.margin_min << ", median " << c.margin_median;
     if (c.hausdorff_bound) text << "; Hausdorff distance at most " << *c.hausdorff_bound;
     text << "\n";
   } else {
-    text << c.reason << "\n";
-    text << "  margins: worst " << c.margin_min << ", median " << c.margin_median << "; above 1 is certified\n";
+    text << ": " << c.reason << "\n  margins: worst " << c.margin_min << ", median " << c.margin_median
+         << "; above 1 is certified\n";
     if (!c.reach_contradicted) text << "  next: --edge-length " << edge_length / 2 << ", or --auto-refine\n";
   }
   text << "  edge length / reach " << c.edge_length_over_reach << ", " << report.simplices_met << " simplices of R^"

@@ -10,11 +10,12 @@
 namespace whitney {
 namespace {
 
-// Bytes as measured by bench/memory_table; each with a quarter above the largest of the cases there.
-constexpr double kBytesPerCell = 60;        ///< of a cell complex, and 2 d more
-constexpr double kBytesPerIncidence = 60;   ///< likewise, with what is held while it is built
-constexpr double kBytesPerMeshPoint = 30;   ///< and 8 d more
-constexpr double kBytesPerMeshCorner = 24;  ///< with orientation
+// Rough sizes with room above. Seen with spheres in R^3, R^4 and R^5 and limits of 300 MB and 1.5 GB: a run that its
+// memory limit stops has a peak of a quarter (n = 4) to three quarters (n = 2) of the limit.
+constexpr double kBytesPerCell = 36;        ///< of a cell complex, and 2 d more
+constexpr double kBytesPerIncidence = 36;   ///< likewise, with what is held while it is built
+constexpr double kBytesPerMeshPoint = 18;   ///< and 8 d more
+constexpr double kBytesPerMeshCorner = 15;  ///< with orientation
 constexpr double kBytesPerFaceCorner = 40;  ///< of a face lattice
 constexpr double kHomologyPerIncidence = 30;
 constexpr double kLinksPerCorner = 60;

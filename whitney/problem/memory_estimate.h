@@ -11,9 +11,8 @@
 
 namespace whitney {
 
-// What the phases of a run take at most, in bytes beyond what is held when they begin. Estimates, no bounds: numbers of
-// cells from the averages over the triangulation, bytes per cell as measured (see README.md beside this file), with
-// room above.
+// What the phases of a run take, in bytes beyond what is held when they begin. Estimates with room above, no bounds:
+// numbers of cells from the averages over the triangulation, times rough sizes in bytes (memory_estimate.cc).
 
 /// Cells of dimension j that a k-simplex met gives rise to, on average over the triangulation of R^d. Of the
 /// m-simplices around it, m = k + j, each is shared by the k-simplices of it that are met: C(m+1, k+1) 2^-k / P of

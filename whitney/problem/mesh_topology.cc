@@ -2,6 +2,7 @@
 #include <whitney/problem/mesh_topology.h>
 
 #include <new>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -17,12 +18,22 @@ bool try_topology(const SimplicialMesh& mesh, TopologyLevel level, Budget& budge
   TopologyOptions options;
   options.links = options.homology = level == TopologyLevel::kFull;
   std::string part = kCounts;
+  std::set<std::string> refused;  // the budget has noted these
   options.begin_part = [&](const char* name, const std::vector<std::size_t>& f_vector) {
     part = name;
-    return budget.allows(name, name == std::string("homology") ? homology_bytes(f_vector) : link_bytes(f_vector));
+    const bool allowed =
+        budget.allows(name, name == std::string("homology") ? homology_bytes(f_vector) : link_bytes(f_vector));
+    if (!allowed) refused.insert(name);
+    return allowed;
   };
+  options.run = budget.rest();
   try {
     report.topology = topology_of(mesh, options);
+    if (report.topology.stop_reason != StopReason::kNone) {
+      const StopReason ended = budget.ended(report.topology.stop_reason);
+      for (const std::string& what : report.topology.left_out)
+        if (refused.count(what) == 0) budget.leave_out(what, ended);
+    }
     return true;
   } catch (const std::bad_alloc&) {
     budget.leave_out(part, StopReason::kMemoryLimit);

@@ -71,7 +71,8 @@ std::string why_singular(const BendingEstimate& estimate, const std::optional<Bo
   return text.str();
 }
 
-ScaleSearchOptions search_options(const Problem& problem, const TriangulateProblemOptions& options, Budget& budget) {
+ScaleSearchOptions search_options(const Problem& problem, const TriangulateProblemOptions& options,
+                                  bool seeds_were_searched, Budget& budget) {
   ScaleSearchOptions search;
   TriangulateOptions& one = search.triangulate;
   one.scheme = options.scheme;
@@ -79,6 +80,7 @@ ScaleSearchOptions search_options(const Problem& problem, const TriangulateProbl
   one.max_rounds = options.max_rounds;
   one.inequalities = problem.inequalities;
   one.box = problem.bounding_box();
+  one.seeds_were_searched = seeds_were_searched;
   one.run = budget.rest(0, work_bytes_per_top_simplex(problem.ambient_dim(), problem.codim(), options.mesh));
   search.first_edge_length = options.edge_length ? options.edge_length : problem.triangulation.edge_length;
   if (search.first_edge_length && options.auto_refine) search.factor = 0.5;
@@ -86,8 +88,19 @@ ScaleSearchOptions search_options(const Problem& problem, const TriangulateProbl
   return search;
 }
 
-CertificateSummary summarize(const TriangulateResult& result, const Bending& bending, const FootPromise& feet,
-                             bool searched) {
+const char* name_of(Components components) {
+  switch (components) {
+    case Components::kOfGivenSeeds:
+      return "seeds_given";
+    case Components::kOfSearchedSeeds:
+      return "seeds_searched";
+    case Components::kAll:
+      return "connected_by_definition";
+  }
+  return "unknown";
+}
+
+CertificateSummary summarize(const TriangulateResult& result, const Bending& bending) {
   const perturbation::CertificateReport& report = result.certificate;
   CertificateSummary out;
   out.verdict = to_string(report.verdict);
@@ -100,9 +113,9 @@ CertificateSummary summarize(const TriangulateResult& result, const Bending& ben
   out.reach = bending.reach;
   out.curvature_radius = bending.curvature_radius;
   out.reach_source = to_string(bending.source);
-  out.feet_source = to_string(feet.errors);
-  out.feet_place = to_string(feet.place);
-  out.components = searched ? "seeds_searched" : "seeds_given";
+  out.feet_source = to_string(result.ingredients.feet.errors);
+  out.feet_place = to_string(result.ingredients.feet.place);
+  out.components = name_of(result.ingredients.components);
   out.edge_length_over_reach = result.edge_length / bending.reach;
   if (report.verdict == Verdict::kCertified && !result.cut) out.hausdorff_bound = result.hausdorff_bound;
   out.cut = result.cut;
@@ -112,8 +125,7 @@ CertificateSummary summarize(const TriangulateResult& result, const Bending& ben
   return out;
 }
 
-void summarize(const ScaleSearchResult& search, const Submanifold& manifold, const Bending& bending,
-               const Problem& problem, Report& report) {
+void summarize(const ScaleSearchResult& search, const Bending& bending, const Problem& problem, Report& report) {
   const TriangulateResult& result = search.result;
   const int k = problem.codim(), n = problem.ambient_dim() - k;
   report.edge_length = search.attempts.back().edge_length;
@@ -124,7 +136,7 @@ void summarize(const ScaleSearchResult& search, const Submanifold& manifold, con
   report.simplices_met = result.certificate.simplices;
   report.oracle_evaluations = result.oracle_evaluations;
   report.distinct_vertices = result.vertices_near;
-  report.certificate = summarize(result, bending, manifold.promise(), report.seeds.searched);
+  report.certificate = summarize(result, bending);
   report.seconds["perturb"] = result.seconds_perturb;
   report.seconds["certify"] = result.seconds_certify;
   report.seconds["complex"] = result.seconds_complex;
@@ -151,13 +163,14 @@ void add_solids(const TriangulateProblemOptions& options, const TriangulateResul
 /// The search for a scale; where memory gives out in spite of all estimates, with half as many simplices, and so on.
 ScaleSearchResult search_what_fits(const Submanifold& manifold, const Bending& bending, const Problem& problem,
                                    std::span<const double> seeds, const TriangulateProblemOptions& options,
-                                   Budget& budget) {
+                                   bool seeds_were_searched, Budget& budget) {
   const auto triangulation_of = [&](double L) {
     return make_triangulation(problem.triangulation, problem.ambient_dim(), L);
   };
   for (;;) {
     try {
-      return search_scale(manifold, bending, triangulation_of, seeds, search_options(problem, options, budget));
+      return search_scale(manifold, bending, triangulation_of, seeds,
+                          search_options(problem, options, seeds_were_searched, budget));
     } catch (const std::bad_alloc&) {
       if (!budget.halve()) throw;
     }
@@ -231,12 +244,14 @@ TriangulatedProblem triangulate_problem(const Problem& asked, const TriangulateP
   }
   budget.lap(report.seconds, "seeds");
 
-  ScaleSearchResult search = search_what_fits(manifold, *bending, problem, seeds, options, budget);
-  budget.ended(search.result.stop_reason);
+  ScaleSearchResult search =
+      search_what_fits(manifold, *bending, problem, seeds, options, report.seeds.searched, budget);
+  const StopReason ended = budget.ended(search.result.stop_reason);
+  for (const std::string& what : search.result.left_out) budget.leave_out(what, ended);
   report.cut_short = budget.stopped();
   std::map<std::string, double> inside_search;
   budget.lap(inside_search, "");
-  summarize(search, manifold, *bending, problem, report);
+  summarize(search, *bending, problem, report);
   out.attempts = search.attempts;
   if (search.result.certificate.simplices == 0)
     return finish(Outcome::kNothingFound,

@@ -89,7 +89,7 @@ TEST(SubmanifoldCombinators, AProvenReachStaysALowerBound) {
 TEST(SubmanifoldCombinators, SeedsLieOnTheManifold) {
   const Submanifold M =
       translate(rotate(product(closed_form::sphere(1, 2), closed_form::sphere(2, 3)), coxeter::random_rotation(5, 4)),
-                Eigen::VectorXd::LinSpaced(5, -1, 1));
+                std::vector<double>{-1, -0.5, 0, 0.5, 1});
   const std::vector<double> seed = M.seed_points();
   ASSERT_EQ(seed.size(), 5);
   std::vector<double> point(5), frame(25);

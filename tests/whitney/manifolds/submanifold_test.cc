@@ -40,7 +40,7 @@ TEST(Submanifold, SearchedFeetAreNot) { EXPECT_EQ(implicit_circle().promise(), k
 TEST(Submanifold, CombinationsPromiseWhatTheirPartsDo) {
   const Submanifold proved = closed_form::sphere(1, 2, 1);
   const Submanifold searched = implicit_circle();
-  EXPECT_EQ(scale(translate(proved, Eigen::Vector2d(1, 2)), 3).promise(), kGlobal);
+  EXPECT_EQ(scale(translate(proved, std::vector<double>{1, 2}), 3).promise(), kGlobal);
   EXPECT_EQ(embed(proved, 3).promise(), kGlobal);
   EXPECT_EQ(product(proved, proved).promise(), kGlobal);
   EXPECT_EQ(product(proved, searched).promise(), kLocal);

@@ -53,7 +53,7 @@ Triangulation random_triangulation(int d, double edge_length, int rng_seed) {
   Eigen::MatrixXd matrix(d, d);
   for (int i = 0; i < d * d; ++i) matrix.data()[i] = normal(rng);
   const Eigen::MatrixXd rotation = Eigen::HouseholderQR<Eigen::MatrixXd>(matrix).householderQ();
-  Eigen::VectorXd shift(d);
+  std::vector<double> shift(d);
   for (int i = 0; i < d; ++i) shift[i] = edge_length * normal(rng);
   return coxeter::coxeter_a(d, edge_length).transformed(rotation, shift);
 }
