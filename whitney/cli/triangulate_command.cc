@@ -94,7 +94,8 @@ int run_triangulate(const TriangulateArguments& arguments) {
   const TriangulatedProblem result =
       with_file(arguments.problem, [&] { return triangulate_problem(problem, options); });
   line.end();
-  if (result.mesh.num_points() == 0) return report_nothing(arguments, result);
+  const bool nothing = result.outcome != TriangulatedProblem::Outcome::kTriangulated;
+  if (nothing || (result.mesh.num_points() == 0 && result.report.stopped())) return report_nothing(arguments, result);
 
   if (!arguments.stats.empty()) {
     write_file(arguments.stats, to_json(result.report));

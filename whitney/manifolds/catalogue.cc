@@ -206,7 +206,8 @@ const Entry& entry_of(std::string_view name) {
   for (const Entry& entry : kEntries)
     if (name == entry.name) return entry;
   if (name == "klein_quartic" || name == "alvarez_deroin")
-    throw InvalidInput(std::string(name) + " is given by charts: write them as \"charts\" of a problem file");
+    throw InvalidInput(std::string(name) +
+                       " is made of charts: give its equation under the key \"projective\" of a problem file");
   std::string list;
   for (const Entry& entry : kEntries) list += (list.empty() ? "" : ", ") + std::string(entry.name);
   throw InvalidInput("unknown manifold '" + std::string(name) + "'; known are " + list);

@@ -251,11 +251,11 @@ TriangulatedProblem triangulate_problem(const Problem& asked, const TriangulateP
   report.cut_short = budget.stopped();
   std::map<std::string, double> inside_search;
   budget.lap(inside_search, "");
-  summarize(search, *bending, problem, report);
   out.attempts = search.attempts;
   if (search.result.certificate.simplices == 0)
     return finish(Outcome::kNothingFound,
                   why_empty(problem, search.result, seeds.size() / static_cast<std::size_t>(report.ambient_dim)));
+  summarize(search, *bending, problem, report);
   add_meshes(search.result, manifold, problem, options, budget, out);
   return finish(Outcome::kTriangulated, "");
 }

@@ -17,13 +17,15 @@ namespace {
 using Eigen::VectorXd;
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-// A trace passes a point of the manifold that it sees within about the diameter of a d-simplex, the longest edge.
-constexpr double kNear = 1.25;  // edge lengths
 // How far a seed point that leads nowhere may be from the manifold and still be taken for a point of it.
 constexpr double kSeedSlack = 2;              // edge lengths
 constexpr std::size_t kFootSimplices = 500;   // looked at around a foot
 constexpr std::size_t kFinerSimplices = 200;  // looked at in a triangulation of half the edge length
 constexpr int kMaxHalvings = 30;
+// In more dimensions a few hundred simplices are not much of a neighbourhood, so little is tried.
+constexpr std::size_t kExhaustiveDim = 6;
+constexpr int kFewHalvings = 8;
+constexpr double kFarthest = 0x1p28;  // in edge lengths
 
 double distance(std::span<const double> a, std::span<const double> b) {
   double largest = 0;
@@ -86,7 +88,7 @@ bool SeedStarter::value(const coxeter::Triangulation& triangulation, const std::
 
 // Whether a simplex found near a seed point meets f = 0 inside the domain. Its vertices are not entered: they may turn
 // out to be no part of the result.
-bool SeedStarter::crossing_inside(const coxeter::Triangulation& triangulation, const Crossing& crossing) const {
+bool SeedStarter::crossing_inside(const coxeter::Triangulation& triangulation, const Crossing& crossing) {
   const int m = domain_.num_inequalities(), k = f_.codim();
   std::vector<double> x(f_.ambient_dim()), rows;
   std::vector<std::int32_t> z = crossing.base;
@@ -98,6 +100,7 @@ bool SeedStarter::crossing_inside(const coxeter::Triangulation& triangulation, c
       rows.push_back(-g[j]);
     }
     rows.resize(rows.size() + k);
+    ++other_evaluations_;
     f_.evaluate(x, {&rows[rows.size() - k], std::size_t(k)});
     for (std::size_t c = 0; c < z.size(); ++c) z[c] += crossing.parts[c] == q;
   }
@@ -105,7 +108,7 @@ bool SeedStarter::crossing_inside(const coxeter::Triangulation& triangulation, c
 }
 
 // Where a simplex meets the zero set of the interpolant, but for rounding.
-std::vector<double> SeedStarter::point_of(const coxeter::Triangulation& triangulation, const Crossing& crossing) const {
+std::vector<double> SeedStarter::point_of(const coxeter::Triangulation& triangulation, const Crossing& crossing) {
   const int d = f_.ambient_dim(), k = f_.codim();
   std::vector<std::int32_t> z = crossing.base;
   Eigen::MatrixXd corners(d, k + 1);
@@ -114,6 +117,7 @@ std::vector<double> SeedStarter::point_of(const coxeter::Triangulation& triangul
   std::vector<double> values(k);
   for (int q = 0; q <= k; ++q) {
     triangulation.cartesian(z, {corners.col(q).data(), std::size_t(d)});
+    ++other_evaluations_;
     f_.evaluate({corners.col(q).data(), std::size_t(d)}, values);
     B(0, q) = 1;
     for (int r = 0; r < k; ++r) B(r + 1, q) = values[r];
@@ -129,18 +133,19 @@ std::vector<double> SeedStarter::point_of(const coxeter::Triangulation& triangul
 }
 
 bool SeedStarter::near(const coxeter::Triangulation& triangulation, const Crossing& crossing,
-                       std::span<const double> foot) const {
+                       std::span<const double> foot) {
   return distance(point_of(triangulation, crossing), foot) <= kNear * triangulation.edge_length();
 }
 
 // Newton's method on f = 0 with steps of least norm, at most an edge length each, rows in units of their own size.
-// Nothing unless it converges within 4 edge lengths.
+// Nothing unless it converges within 4 edge lengths, and inside the box but for half of one.
 std::vector<double> SeedStarter::foot_of(std::span<const double> x) {
   const int d = f_.ambient_dim(), k = f_.codim();
   const double L = triangulation_.edge_length();
   VectorXd y = Eigen::Map<const VectorXd>(x.data(), d), f(k);
   RowMajor J(k, d);
   for (int step = 0; step < 60; ++step) {
+    if (!box_holds({y.data(), std::size_t(d)}, L / 2)) return {};
     f_.evaluate({y.data(), std::size_t(d)}, {f.data(), std::size_t(k)});
     f_.jacobian({y.data(), std::size_t(d)}, {J.data(), std::size_t(k) * d}, L);
     ++other_evaluations_;
@@ -158,11 +163,12 @@ std::vector<double> SeedStarter::foot_of(std::span<const double> x) {
 
 // Whether f = 0 can be said to pass a point that Newton's method ended in: Df has full rank there (where f stays away
 // from 0 and is flat, steps grow short too), and the domain holds the point.
-bool SeedStarter::claims(std::span<const double> foot) const {
+bool SeedStarter::claims(std::span<const double> foot) {
   const int d = f_.ambient_dim(), k = f_.codim();
   if (!domain_.contains(foot)) return false;
   VectorXd f(k);
   RowMajor J(k, d);
+  ++other_evaluations_;
   f_.evaluate(foot, {f.data(), std::size_t(k)});
   f_.jacobian(foot, {J.data(), std::size_t(k) * d}, 1e-3 * triangulation_.edge_length());
   if (!scale_rows(J, f)) return false;
@@ -204,7 +210,6 @@ SeedStart SeedStarter::find(std::span<const double> seed, std::size_t limit) {
     return start;
   }
   start.unseen = foot;
-  start.finer_edge_length = finer_edge_length(foot);
   return start;
 }
 
@@ -215,8 +220,13 @@ double SeedStarter::finer_edge_length(std::span<const double> foot) {
     if (distance(known, foot) < L) return finer;
   double finer = 0;
   Crossing crossing;
-  for (int halvings = 1; halvings <= kMaxHalvings && finer == 0; ++halvings) {
+  double farthest = 0;
+  for (std::size_t c = 0; c < foot.size(); ++c)
+    farthest = std::max(farthest, std::abs(foot[c] - triangulation_.offset()[c]));
+  const int most = foot.size() <= kExhaustiveDim ? kMaxHalvings : kFewHalvings;
+  for (int halvings = 1; halvings <= most && finer == 0; ++halvings) {
     const double factor = std::ldexp(1.0, -halvings);
+    if (!(farthest < kFarthest * factor * L)) break;  // lattice coordinates have an end
     const coxeter::Triangulation halved(factor * as_eigen(triangulation_.linear()), triangulation_.offset());
     if (find_near(halved, foot, kFinerSimplices, crossing)) finer = factor * L;
   }

@@ -20,12 +20,10 @@ struct SeedStart {
   std::vector<Crossing> crossings;  ///< none, one, or two: near the seed point, and near its foot
   std::string reason;               ///< why there is none
   /// The seed's foot on f = 0 (d numbers), when f = 0 passes there regularly and in the domain but no simplex that
-  /// meets the zero set of the interpolant does so within 1.25 edge lengths: the seed lies on a part of the manifold
-  /// that is too small, or too close to another one, for this edge length. Else empty.
+  /// meets the zero set of the interpolant was found to do so within kNear edge lengths: unless the trace comes by
+  /// there all the same, the seed lies on a part of the manifold that is too small, or too close to another one, for
+  /// this edge length. Else empty.
   std::vector<double> unseen;
-  /// The largest edge length of those halved from the triangulation's at which such a simplex is there; 0 when none of
-  /// 30 is.
-  double finer_edge_length = 0;
 };
 
 /// Finds simplices from which to start a trace, and says which seed points lie on a part that the triangulation is too
@@ -43,6 +41,13 @@ class SeedStarter {
   /// inside the box.
   SeedStart find(std::span<const double> seed, std::size_t limit);
 
+  /// A trace that sees the part of f = 0 at a point of it passes within so many edge lengths.
+  static constexpr double kNear = 1.25;
+
+  /// The largest edge length of those halved from the triangulation's at which a simplex that meets the zero set of the
+  /// interpolant is found near a foot; 0 when none is: 30 are tried, 8 where d > 6.
+  double finer_edge_length(std::span<const double> foot);
+
   /// See SeedSearch::search_full.
   bool find_full(std::span<const double> seed, std::size_t limit,
                  const std::function<bool(const coxeter::Simplex&)>& found);
@@ -51,15 +56,14 @@ class SeedStarter {
 
  private:
   bool value(const coxeter::Triangulation& triangulation, const std::int32_t* z, double* values) const;
-  bool crossing_inside(const coxeter::Triangulation& triangulation, const Crossing& crossing) const;
-  std::vector<double> point_of(const coxeter::Triangulation& triangulation, const Crossing& crossing) const;
-  bool near(const coxeter::Triangulation& triangulation, const Crossing& crossing, std::span<const double> foot) const;
+  bool crossing_inside(const coxeter::Triangulation& triangulation, const Crossing& crossing);
+  std::vector<double> point_of(const coxeter::Triangulation& triangulation, const Crossing& crossing);
+  bool near(const coxeter::Triangulation& triangulation, const Crossing& crossing, std::span<const double> foot);
   bool find_near(const coxeter::Triangulation& triangulation, std::span<const double> foot, std::size_t limit,
                  Crossing& found);
   std::vector<double> foot_of(std::span<const double> x);
   bool box_holds(std::span<const double> x, double slack) const;
-  bool claims(std::span<const double> foot) const;
-  double finer_edge_length(std::span<const double> foot);
+  bool claims(std::span<const double> foot);
 
   const Function& f_;
   const Domain& domain_;

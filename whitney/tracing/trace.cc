@@ -57,6 +57,7 @@ class Tracer {
   bool grow_boundary();
   bool should_stop();
   double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+  void judge_unseen(SeedReport& report, const TraceResult& traced, SeedStarter& starter);
   TraceResult result();
   void list_boundary(TraceResult& out);
   std::vector<std::uint32_t> list_vertices(TraceResult& out);
@@ -119,8 +120,7 @@ TraceResult Tracer<Shape>::run(std::span<const double> seed_points) {
   for (std::size_t i = 0; i + d_ <= seed_points.size() && stop_ == StopReason::kNone; i += d_) {
     const std::span<const double> seed = seed_points.subspan(i, d_);
     SeedStart start = starter.find(seed, options_.max_seed_simplices);
-    SeedReport report{SeedReport::Outcome::kDropped, std::move(start.reason), std::move(start.unseen),
-                      start.finer_edge_length};
+    SeedReport report{SeedReport::Outcome::kDropped, std::move(start.reason), std::move(start.unseen), 0};
     bool started = false, found = !start.crossings.empty();
     for (const Crossing& crossing : start.crossings) started = interior_.start_from(crossing) || started;
     if (!found && boundary_) {
@@ -134,19 +134,49 @@ TraceResult Tracer<Shape>::run(std::span<const double> seed_points) {
       report.reason.clear();
       if (grow() && boundary_) grow_boundary();
     }
-    if (!report.unseen.empty()) {
-      report.outcome = SeedReport::Outcome::kTooSmall;
-      report.reason = "f = 0 passes there, but the part of it is too small for this edge length";
-    }
     out.seeds.push_back(std::move(report));
   }
   while (out.seeds.size() * d_ < seed_points.size())
     out.seeds.push_back({.outcome = SeedReport::Outcome::kDropped, .reason = "the trace was stopped before its turn"});
   TraceResult traced = result();
   traced.seeds = std::move(out.seeds);
+  for (SeedReport& report : traced.seeds) judge_unseen(report, traced, starter);
   traced.seed_evaluations = starter.evaluations();
   traced.seconds = seconds();
   return traced;
+}
+
+// What becomes of a seed at whose foot the search found nothing, now that the whole trace is there to be looked at.
+template <class Shape>
+void Tracer<Shape>::judge_unseen(SeedReport& report, const TraceResult& traced, SeedStarter& starter) {
+  if (report.unseen.empty()) return;
+  const double reach = SeedStarter::kNear * triangulation_.edge_length();
+  const auto passes = [&](std::span<const double> points) {
+    for (std::size_t at = 0; at < points.size(); at += d_) {
+      double squared = 0;
+      for (int c = 0; c < d_; ++c) {
+        const double t = (points[at + c] - report.unseen[c]) / reach;
+        squared += t * t;
+      }
+      if (squared <= 1) return true;
+    }
+    return false;
+  };
+  bool met = passes(traced.points());
+  for (const BoundarySimplices& stratum : traced.boundary) met = met || passes(stratum.points);
+  if (met && report.outcome == SeedReport::Outcome::kDropped) {
+    report.outcome = SeedReport::Outcome::kMerged;
+    report.reason.clear();
+  }
+  // A trace that was stopped may not have come there yet.
+  const bool ended = traced.stop_reason == StopReason::kNone || traced.stop_reason == StopReason::kBox;
+  if (met || !ended) {
+    report.unseen.clear();
+    return;
+  }
+  report.outcome = SeedReport::Outcome::kTooSmall;
+  report.reason = "f = 0 passes there, but the part of it is too small for this edge length";
+  report.finer_edge_length = starter.finer_edge_length(report.unseen);
 }
 
 // Puts everything into canonical order.
@@ -253,8 +283,8 @@ void Tracer<Shape>::list_boundary(TraceResult& out) {
         after += weights[q];
         for (std::uint16_t c : sigma.partition().part(q - 1)) y[c] += after / total;
       }
-      const Eigen::VectorXd x =
-          as_eigen(triangulation_.offset()) + as_eigen(triangulation_.linear()) * Eigen::Map<const Eigen::VectorXd>(y.data(), d_);
+      const Eigen::VectorXd x = as_eigen(triangulation_.offset()) +
+                                as_eigen(triangulation_.linear()) * Eigen::Map<const Eigen::VectorXd>(y.data(), d_);
       listed.points.insert(listed.points.end(), x.data(), x.data() + d_);
     }
     out.boundary.push_back(std::move(listed));
