@@ -136,5 +136,15 @@ TEST(Surface, VertexNormalsAreOpenMeshs) {
   EXPECT_GT(without, 300);
 }
 
+TEST(Surface, NoVertexNormalsWhereTwoCellsRunTheSameWay) {
+  const SimplicialMesh mesh{3, 2, {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, -1, 0}, {0, 1, 2, 0, 1, 3}};
+  MeshView view = view_of(mesh);
+  view.xyz = mesh.points;
+  view.oriented = true;
+  EXPECT_FALSE(vertex_normals(view));
+  view.corners = {0, 1, 2, 1, 0, 3};
+  EXPECT_TRUE(vertex_normals(view));
+}
+
 }  // namespace
 }  // namespace whitney::io
