@@ -12,10 +12,17 @@
 #include <Eigen/QR>
 
 #include <coxeter/base/eigen_view.h>
+#include <coxeter/base/keyed_random.h>
 #include <coxeter/locate.h>
 #include <whitney/tracing/exact_pivot.h>
 
 namespace whitney {
+namespace {
+
+constexpr std::int32_t kMoreStarts = 32;
+constexpr std::uint64_t kStartsSeed = 1;
+
+}  // namespace
 
 SeedSearch::SeedSearch(const coxeter::Triangulation& triangulation, int codim, Evaluate evaluate)
     : triangulation_(triangulation),
@@ -123,16 +130,13 @@ void SeedSearch::describe(const FullSimplex& simplex, const std::vector<int>& fa
     for (int q = face[p]; q < face[p + 1]; ++q) found.parts[simplex.order[q]] = p;
 }
 
-bool SeedSearch::search(std::span<const double> x, std::size_t limit, Crossing& found, std::string& reason) {
-  const std::vector<double> z = triangulation_.lattice_coordinates(x);
-  const auto start = as_eigen(z);
-  std::size_t examined = 0;
-
-  // Newton's method on the interpolant: exact as soon as it stays in one simplex.
-  Eigen::VectorXd y = start;
+// Newton's method on the interpolant from y, in lattice coordinates: exact as soon as it stays in one simplex. Counts the
+// simplices it examines.
+bool SeedSearch::newton(Eigen::VectorXd y, Crossing& found, std::size_t& examined) {
+  const Eigen::VectorXd start = y;
   for (int step = 0; step < 12; ++step) {
     const FullSimplex simplex = locate(as_span(y));
-    if (!load(simplex)) break;
+    if (!load(simplex)) return false;
     ++examined;
     if (hit_face(simplex, found)) return true;
     Eigen::MatrixXd gradient(codim_, dim_);
@@ -154,9 +158,17 @@ bool SeedSearch::search(std::span<const double> x, std::size_t limit, Crossing& 
       }
     }
     const Eigen::VectorXd move = gradient.completeOrthogonalDecomposition().solve(f);
-    if (!move.allFinite() || (y - move - start).norm() > 4 + dim_) break;
+    if (!move.allFinite() || (y - move - start).norm() > 4 + dim_) return false;
     y -= move;
   }
+  return false;
+}
+
+bool SeedSearch::search(std::span<const double> x, std::size_t limit, Crossing& found, std::string& reason) {
+  const std::vector<double> z = triangulation_.lattice_coordinates(x);
+  const Eigen::VectorXd start = as_eigen(z);
+  std::size_t examined = 0;
+  if (newton(start, found, examined)) return true;
 
   bool any_inside = false, is_found = false;
   any_rejected_ = false;
@@ -168,6 +180,14 @@ bool SeedSearch::search(std::span<const double> x, std::size_t limit, Crossing& 
     return !is_found;
   });
   if (is_found) return true;
+  // In high dimension the simplices around a point are too many to be looked at; from other points nearby Newton's
+  // method comes by others.
+  for (std::int32_t attempt = 0; any_inside && attempt < kMoreStarts; ++attempt) {
+    coxeter::KeyedRandom random(kStartsSeed, std::span(&attempt, 1));
+    Eigen::VectorXd other = start;
+    for (double& c : other) c += random.uniform() - 0.5;
+    if (newton(other, found, examined)) return true;
+  }
   const std::string around = "none of the " + std::to_string(examined) + " simplices around it ";
   if (!any_inside)
     reason = "it lies outside the box";

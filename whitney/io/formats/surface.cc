@@ -5,71 +5,27 @@
 #include <cmath>
 #include <cstdint>
 
-#include <whitney/topology/incidence.h>
-#include <whitney/topology/orientation.h>
+#include <whitney/topology/half_edges.h>
 
 namespace whitney::io {
 
-namespace {
-
-struct HalfEdge {
-  std::uint32_t low, high;  ///< its ends
-  std::uint32_t slot;       ///< of the corner where it begins
-  bool upward;              ///< runs from low to high
-};
-
-/// All half-edges with those of one edge side by side: counting sort by the low end, then small sorts.
-std::vector<HalfEdge> sorted_half_edges(const MeshView& mesh) {
-  std::vector<std::size_t> bucket(mesh.num_points() + 1, 0);
-  const auto for_each = [&mesh](auto visit) {
-    std::uint32_t slot = 0;
-    for (std::size_t c = 0; c < mesh.num_cells(); ++c) {
-      const auto cell = mesh.cell(c);
-      for (std::size_t i = 0; i < cell.size(); ++i) {
-        const std::uint32_t a = cell[i];
-        const std::uint32_t b = cell[i + 1 == cell.size() ? 0 : i + 1];
-        visit(HalfEdge{std::min(a, b), std::max(a, b), slot++, a < b});
-      }
-    }
-  };
-  for_each([&](const HalfEdge& h) { ++bucket[h.low + 1]; });
-  for (std::size_t i = 1; i < bucket.size(); ++i) bucket[i] += bucket[i - 1];
-  std::vector<HalfEdge> sorted(bucket.back());
-  std::vector<std::size_t> next = bucket;
-  for_each([&](const HalfEdge& h) { sorted[next[h.low]++] = h; });
-  for (std::size_t v = 0; v + 1 < bucket.size(); ++v) {
-    std::sort(sorted.begin() + static_cast<std::ptrdiff_t>(bucket[v]),
-              sorted.begin() + static_cast<std::ptrdiff_t>(bucket[v + 1]), [](const HalfEdge& a, const HalfEdge& b) {
-                return a.high != b.high ? a.high < b.high : a.slot < b.slot;
-              });
-  }
-  return sorted;
+Incidence cells_of(const MeshView& mesh) {
+  Incidence cells;
+  cells.offset.reserve(mesh.num_cells() + 1);
+  for (std::size_t c = 0; c < mesh.num_cells(); ++c)
+    cells.offset.push_back(cells.offset.back() + static_cast<std::uint32_t>(mesh.cell(c).size()));
+  cells.index = mesh.corners;
+  return cells;
 }
 
-}  // namespace
-
 bool orient_cells(MeshView& mesh) {
-  // The edges of a cell in the order of its corners; the sign of an edge is its direction in the cell.
-  Incidence edges;
-  for (std::size_t c = 0; c < mesh.num_cells(); ++c)
-    edges.offset.push_back(edges.offset.back() + static_cast<std::uint32_t>(mesh.cell(c).size()));
-  edges.index.resize(edges.offset.back());
-  std::vector<std::int8_t> signs(edges.index.size());
-  std::uint32_t num_edges = 0;
-  const HalfEdge* last = nullptr;
-  const std::vector<HalfEdge> half_edges = sorted_half_edges(mesh);
-  for (const HalfEdge& h : half_edges) {
-    if (last == nullptr || last->low != h.low || last->high != h.high) ++num_edges;
-    edges.index[h.slot] = num_edges - 1;
-    signs[h.slot] = h.upward ? 1 : -1;
-    last = &h;
-  }
-  const CellOrientation orientation = whitney::orient_cells(edges, signs, num_edges);
+  const Incidence cells = cells_of(mesh);
+  const CellOrientation orientation = orient_polygons(cells, mesh.num_points());
   for (std::size_t c = 0; c < mesh.num_cells(); ++c) {
     if (orientation.sign[c] > 0) continue;
     // The first corner stays first.
-    std::reverse(mesh.corners.begin() + static_cast<std::ptrdiff_t>(edges.offset[c]) + 1,
-                 mesh.corners.begin() + static_cast<std::ptrdiff_t>(edges.offset[c + 1]));
+    std::reverse(mesh.corners.begin() + static_cast<std::ptrdiff_t>(cells.offset[c]) + 1,
+                 mesh.corners.begin() + static_cast<std::ptrdiff_t>(cells.offset[c + 1]));
   }
   return orientation.all_orientable();
 }

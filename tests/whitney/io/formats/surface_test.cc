@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <random>
 #include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include <whitney/io/openmesh.h>
 
 #include "test_complexes.h"
 
@@ -74,6 +77,73 @@ TEST(Surface, PolygonsAndSheetsThatMeetInAnEdge) {
   view.corners = {0, 1, 2, 3, 1, 2, 5, 4, 6, 7, 8, 6, 7, 9, 6, 7, 10};
   EXPECT_TRUE(orient_cells(view));
   EXPECT_EQ(view.corners, (std::vector<std::uint32_t>{0, 1, 2, 3, 1, 4, 5, 2, 6, 7, 8, 6, 7, 9, 6, 7, 10}));
+}
+
+/// What vertex_normals stands in for; nothing where OpenMesh refuses a cell.
+std::optional<std::vector<double>> openmesh_normals(const SimplicialMesh& mesh) {
+  using HalfEdgeMesh = OpenMesh::PolyMesh_ArrayKernelT<OpenMesh::DefaultTraitsDouble>;
+  ToOpenMeshOptions options;
+  options.orient = false;
+  auto result = to_openmesh<HalfEdgeMesh>(mesh, options);
+  if (!result.refused.empty()) return std::nullopt;
+  result.mesh.request_face_normals();
+  result.mesh.request_vertex_normals();
+  result.mesh.update_normals();
+  std::vector<double> normals;
+  for (const auto v : result.mesh.vertices()) {
+    const auto normal = result.mesh.normal(v);
+    normals.insert(normals.end(), normal.data(), normal.data() + 3);
+  }
+  return normals;
+}
+
+TEST(Surface, VertexNormalsAreOpenMeshs) {
+  std::mt19937 generator(2);
+  std::uniform_real_distribution<double> coordinate(-1, 1);
+  const SimplicialMesh octahedron =
+      testing::mesh_of(2, {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}, {5, 2, 1}, {5, 3, 2}, {5, 4, 3}, {5, 1, 4}});
+  int with_normals = 0, without = 0;
+  for (int round = 0; round < 3000; ++round) {
+    // Pieces of an octahedron, a further one glued to it somewhere, cells in any order: surfaces, fans that meet in
+    // points, closed fans that meet, and edges in several cells.
+    std::vector<std::vector<std::uint32_t>> cells;
+    std::vector<std::uint32_t> other(6);
+    for (std::uint32_t& v : other) v = generator() % (round % 2 == 0 ? 12 : 8);
+    std::sort(other.begin(), other.end());
+    const bool glued = std::adjacent_find(other.begin(), other.end()) == other.end();
+    std::shuffle(other.begin(), other.end(), generator);
+    for (std::size_t i = 0; i < octahedron.simplices.size(); i += 3) {
+      const std::uint32_t* v = octahedron.simplices.data() + i;
+      if (generator() % 8 != 0) cells.push_back({v[0], v[1], v[2]});
+      if (glued && generator() % 8 != 0) cells.push_back({other[v[0]], other[v[1]], other[v[2]]});
+    }
+    std::shuffle(cells.begin(), cells.end(), generator);
+    SimplicialMesh mesh{3, 2, std::vector<double>(3 * 12), {}};
+    for (double& x : mesh.points) x = coordinate(generator);
+    for (const auto& cell : cells) mesh.simplices.insert(mesh.simplices.end(), cell.begin(), cell.end());
+    MeshView view = view_of(mesh);
+    view.xyz = mesh.points;
+    view.oriented = true;
+    const auto ours = vertex_normals(view);
+    const auto theirs = openmesh_normals(mesh);
+    ASSERT_EQ(ours.has_value(), theirs.has_value()) << round;
+    ++(ours ? with_normals : without);
+    for (std::size_t i = 0; ours && i < ours->size(); ++i) ASSERT_NEAR((*ours)[i], (*theirs)[i], 1e-11) << round;
+    view.oriented = false;
+    EXPECT_FALSE(vertex_normals(view));
+  }
+  EXPECT_GT(with_normals, 300);
+  EXPECT_GT(without, 300);
+}
+
+TEST(Surface, NoVertexNormalsWhereTwoCellsRunTheSameWay) {
+  const SimplicialMesh mesh{3, 2, {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, -1, 0}, {0, 1, 2, 0, 1, 3}};
+  MeshView view = view_of(mesh);
+  view.xyz = mesh.points;
+  view.oriented = true;
+  EXPECT_FALSE(vertex_normals(view));
+  view.corners = {0, 1, 2, 1, 0, 3};
+  EXPECT_TRUE(vertex_normals(view));
 }
 
 }  // namespace
