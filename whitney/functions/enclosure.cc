@@ -368,7 +368,7 @@ EnclosureBuilder::Node EnclosureBuilder::product(Node a, Node b) {
   if (is_constant(b)) std::swap(a, b);
   if (is_constant(a) && is_constant(b)) {
     const Range &p = value(a), &q = value(b);
-    const bool is_exact = is_small_integer(p) && is_small_integer(q) && std::fabs(p.lo * q.lo) <= 0x1p53;
+    const bool is_exact = is_small_integer(p) && is_small_integer(q) && std::fabs(p.lo * q.lo) < 0x1p53;
     return constant(is_exact ? Range(p.lo * q.lo) : p * q);
   }
   Enclosure::Node node;

@@ -156,7 +156,7 @@ class Parser {
     const bool is_whole = std::string_view(begin, end).find_first_not_of("0123456789") == std::string_view::npos;
     position_ += end - begin;
     skip_space();
-    if (is_whole && value <= 0x1p53) return builder_.constant(Range(value));
+    if (is_whole && value < 0x1p53) return builder_.constant(Range(value));
     if (is_exact(std::string_view(begin, end), value)) return builder_.constant(Range(value));
     return builder_.constant({outward::down(value), outward::up(value)});
   }

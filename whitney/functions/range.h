@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#ifdef __FAST_MATH__
+#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
 #error "Range needs IEEE arithmetic: no -ffast-math"
 #endif
 static_assert(FLT_EVAL_METHOD == 0, "Range needs double arithmetic without excess precision");

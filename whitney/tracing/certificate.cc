@@ -264,11 +264,12 @@ std::vector<Drops> Certifier::drops_around() const {
 
 void Certifier::conclude() {
   const std::size_t k = f_.codim();
+  Drops largest{}, farthest{};
   for (const std::uint32_t v : tested_) {
-    result_.distance_bound = std::max(result_.distance_bound, reports_[v].displacement);
+    raise(largest, reports_[v].drop);
+    raise(farthest, reports_[v].displacement);
   }
-  Drops largest{};
-  for (const std::uint32_t v : tested_) raise(largest, reports_[v].drop);
+  result_.distance_bound = total(farthest);
   result_.worst_drop = total(largest);
   if (!(result_.worst_drop < 1)) {
     // A point of the complex in the cell of a d-simplex that has a crossed face s moves, as long as its drop is below

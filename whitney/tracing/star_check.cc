@@ -586,7 +586,7 @@ bool StarCheck::conclude_piece(double begin, double end, StarReport& report, dou
   }
   // A change of c by r in the sum norm changes both the half variation and, times the longest edge, the length by r.
   drop = above((end - begin) * (rest + most + rounding) * (1 + 1e-9));
-  displacement += above((end - begin) * (rest_length + farthest + rounding * longest_) * (1 + 1e-9));
+  displacement = above((end - begin) * (rest_length + farthest + rounding * longest_) * (1 + 1e-9));
   return std::isfinite(drop) && std::isfinite(displacement);
 }
 
@@ -596,16 +596,21 @@ void StarCheck::conclude(int num_pieces, StarReport& report) {
   for (int piece = 0; piece < num_pieces; ++piece) {
     const double begin = num_pieces == 1 ? 0 : kIsotopyTimes[piece];
     const double end = num_pieces == 1 ? 1 : kIsotopyTimes[piece + 1];
-    double drop = 0;
-    if (!conclude_piece(begin, end, report, drop, report.displacement)) {
+    double drop = 0, displacement = 0;
+    if (!conclude_piece(begin, end, report, drop, displacement)) {
       report.outcome = StarReport::Outcome::kIrregular;
       report.radius = std::max(report.radius, 1.0);
       return;
     }
     if (num_pieces > 1) {
       report.drop[piece] = drop;
+      report.displacement[piece] = displacement;
     } else {
-      for (int i = 0; i < kIsotopyPieces; ++i) report.drop[i] = above((kIsotopyTimes[i + 1] - kIsotopyTimes[i]) * drop);
+      for (int i = 0; i < kIsotopyPieces; ++i) {
+        const double share = kIsotopyTimes[i + 1] - kIsotopyTimes[i];
+        report.drop[i] = above(share * drop);
+        report.displacement[i] = above(share * displacement);
+      }
     }
   }
 }

@@ -28,7 +28,9 @@ struct StarReport {
   double radius = 0;  ///< an estimate of the largest spectral radius of B
   /// By piece of time: a bound for the change of sums of hat functions along the isotopy, times the piece's length.
   std::array<double, kIsotopyPieces> drop{};
-  double displacement = 0;  ///< proved: how far the isotopy moves a point of the star (a length)
+  /// By piece of time: how far the isotopy moves a point while it is in the star (a length). A point may be in other
+  /// stars in other pieces: the largest ones of all stars add up.
+  std::array<double, kIsotopyPieces> displacement{};
 
   bool is_regular() const { return outcome == Outcome::kRegular; }
   double total_drop() const { return drop[0] + drop[1] + drop[2] + drop[3]; }

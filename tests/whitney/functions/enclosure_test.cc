@@ -131,7 +131,8 @@ TEST(Enclosure, HoldsSampledValues) {
 TEST(Enclosure, ConstantsAreEnclosedNotRounded) {
   const std::vector<std::string> variables{"x"};
   const std::vector<std::string> texts{"exp(1)*exp(39)-exp(40)+0*x", "0.1+0*x", "0.5+0*x", "1/3+0*x", "pi+0*x",
-                                       "9007199254740993+0*x"};
+                                       "9007199254740993+0*x", "9007199254740993-9007199254740992+0*x",
+                                       "321*28059810762433-9007199254740992+0*x"};
   const Enclosure f = Enclosure::of_expressions(variables, texts);
   EXPECT_TRUE(f.has_exact_constants());
   const auto values = jets_over(f, {Range(0)}, 0).values;
@@ -142,6 +143,8 @@ TEST(Enclosure, ConstantsAreEnclosedNotRounded) {
   EXPECT_LT(values[2].hi - values[2].lo, 1e-15);
   EXPECT_TRUE(values[3].lo < 1 / 3.0 && 1 / 3.0 < values[3].hi);
   EXPECT_TRUE(values[5].lo < 9007199254740993.0L && values[5].hi > 9007199254740993.0L);
+  EXPECT_TRUE(values[6].contains(1));  // 2^53 + 1 is no double
+  EXPECT_TRUE(values[7].contains(1));
 }
 
 TEST(Enclosure, UndefinedIsUnbounded) {
