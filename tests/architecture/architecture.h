@@ -39,12 +39,13 @@ std::string text(const Violation& violation);
 ///          enough to leave one without tools.
 /// public   no public header includes GiNaC, CGAL, GMP, Boost.Multiprecision, OpenMesh, nlohmann, TBB or Eigen
 ///          (whitney/io/openmesh.h, an adaptor, may include OpenMesh), nor a header that is not public.
-/// flags    no public header asks which instructions it is compiled for.
+/// flags    no public header asks which instructions it is compiled for, but coxeter/faces/nibbles.h, which names
+///          everything in it after them.
 /// threads  TBB in coxeter/base/parallel.{h,cc} only.
 /// interval interval arithmetic in perturbation/interval.{h,cc} only.
 ///
 /// Public are all headers but those of whitney/cli and whitney/io/formats and those that
-/// root/tests/architecture/internal_headers.txt lists.
+/// root/cmake/internal_headers.txt lists; a line there whose header is gone is a violation of the rule "list".
 ///
 /// Sorted. Throws std::runtime_error if root has none of the three folders.
 std::vector<Violation> check_architecture(const std::filesystem::path& root);

@@ -346,6 +346,20 @@ double side(const SimplicialMesh& mesh, const std::uint32_t* facet, std::uint32_
   return projected.determinant();
 }
 
+/// The first reason that speaks against a homeomorphism, or none.
+void conclude(bool complete, CorrespondenceCheck& report) {
+  const auto say = [&](std::size_t count, const char* what) {
+    if (count > 0 && report.reason.empty()) report.reason = std::to_string(count) + what;
+  };
+  say(report.feet_missing, " places of the complex have no closest point on the manifold");
+  say(report.bad_facets, " facets do not lie in exactly two simplices");
+  say(report.folded_facets, " facets are folds of the projection");
+  say(report.steep, " simplices may be orthogonal to the manifold somewhere");
+  say(report.covered_twice, " components are not projected injectively");
+  if (!complete && report.reason.empty()) report.reason = "the check was stopped";
+  report.homeomorphism = report.reason.empty();
+}
+
 }  // namespace
 
 CorrespondenceCheck check_correspondence(const Correspondence& correspondence, const Bending& bending,
@@ -420,16 +434,7 @@ CorrespondenceCheck check_correspondence(const Correspondence& correspondence, c
     report.covered_twice += !correspondence.from_manifold(x).found();
   }
 
-  const auto say = [&](std::size_t count, const char* what) {
-    if (count > 0 && report.reason.empty()) report.reason = std::to_string(count) + what;
-  };
-  say(report.feet_missing, " places of the complex have no closest point on the manifold");
-  say(report.bad_facets, " facets do not lie in exactly two simplices");
-  say(report.folded_facets, " facets are folds of the projection");
-  say(report.steep, " simplices may be orthogonal to the manifold somewhere");
-  say(report.covered_twice, " components are not projected injectively");
-  if (!complete && report.reason.empty()) report.reason = "the check was stopped";
-  report.homeomorphism = report.reason.empty();
+  conclude(complete, report);
   return report;
 }
 
