@@ -130,10 +130,11 @@ void SeedSearch::describe(const FullSimplex& simplex, const std::vector<int>& fa
     for (int q = face[p]; q < face[p + 1]; ++q) found.parts[simplex.order[q]] = p;
 }
 
-// Newton's method on the interpolant from y, in lattice coordinates: exact as soon as it stays in one simplex. Counts the
+// Newton's method on the interpolant from a point, in lattice coordinates: exact as soon as it stays in one simplex. Counts the
 // simplices it examines.
-bool SeedSearch::newton(Eigen::VectorXd y, Crossing& found, std::size_t& examined) {
-  const Eigen::VectorXd start = y;
+bool SeedSearch::newton(const std::vector<double>& from, Crossing& found, std::size_t& examined) {
+  const auto start = as_eigen(from);
+  Eigen::VectorXd y = start;
   for (int step = 0; step < 12; ++step) {
     const FullSimplex simplex = locate(as_span(y));
     if (!load(simplex)) return false;
@@ -166,9 +167,8 @@ bool SeedSearch::newton(Eigen::VectorXd y, Crossing& found, std::size_t& examine
 
 bool SeedSearch::search(std::span<const double> x, std::size_t limit, Crossing& found, std::string& reason) {
   const std::vector<double> z = triangulation_.lattice_coordinates(x);
-  const Eigen::VectorXd start = as_eigen(z);
   std::size_t examined = 0;
-  if (newton(start, found, examined)) return true;
+  if (newton(z, found, examined)) return true;
 
   bool any_inside = false, is_found = false;
   any_rejected_ = false;
@@ -184,7 +184,7 @@ bool SeedSearch::search(std::span<const double> x, std::size_t limit, Crossing& 
   // method comes by others.
   for (std::int32_t attempt = 0; any_inside && attempt < kMoreStarts; ++attempt) {
     coxeter::KeyedRandom random(kStartsSeed, std::span(&attempt, 1));
-    Eigen::VectorXd other = start;
+    std::vector<double> other = z;
     for (double& c : other) c += random.uniform() - 0.5;
     if (newton(other, found, examined)) return true;
   }

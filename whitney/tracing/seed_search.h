@@ -58,7 +58,7 @@ class SeedSearch {
   FullSimplex locate(std::span<const double> y) const;
   FullSimplex neighbour(const FullSimplex& simplex, int opposite) const;
   bool load(const FullSimplex& simplex);
-  bool newton(Eigen::VectorXd y, Crossing& found, std::size_t& examined);
+  bool newton(const std::vector<double>& start, Crossing& found, std::size_t& examined);
   bool hit_face(const FullSimplex& simplex, Crossing& found);
   void describe(const FullSimplex& simplex, const std::vector<int>& face, Crossing& found) const;
   std::vector<double> barycentre(const FullSimplex& simplex) const;

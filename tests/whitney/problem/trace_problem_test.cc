@@ -46,7 +46,7 @@ TEST(TraceProblem, MemoryStopsTheTraceAndTheMeshOfWhatWasFoundIsThere) {
   options.edge_length = 1e-4;
   const TracedProblem traced = trace_problem(circle(), options);
   EXPECT_EQ(traced.report.stop_reason, StopReason::kMemoryLimit);
-  EXPECT_FALSE(traced.report.left_out.empty());
+  EXPECT_TRUE(traced.report.stopped());
 }
 
 TEST(TraceProblem, RefusesWhatIsNoZeroSet) {
