@@ -153,8 +153,7 @@ double simplex_width(const Triangulation& triangulation) {
     if (proven >= usual) return usual;
     bound = std::max(0.0, proven);
   }
-  const double other_bound = d <= kMostEnumerated ? enumerated_width_below(linear)
-                                                  : width_below_by_norm(linear);
+  const double other_bound = d <= kMostEnumerated ? enumerated_width_below(linear) : width_below_by_norm(linear);
   return std::max(bound, other_bound);
 }
 

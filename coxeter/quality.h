@@ -40,9 +40,9 @@ Quality freudenthal_quality(int ambient_dim, double edge_length);
 
 class Triangulation;
 
-/// A proven lower bound of the least width of the d-simplices of any triangulation: within a factor 1 - 1e-6 of it where
-/// the linear part Lambda is not ill-conditioned, smaller where its inverse is known less well, 0 where it is not known
-/// at all (a condition number near 1e15). The sums of gradients that Quality::width speaks of are, over all
+/// A proven lower bound of the least width of the d-simplices of any triangulation: within a factor 1 - 1e-6 of it
+/// where the linear part Lambda is not ill-conditioned, smaller where its inverse is known less well, 0 where it is not
+/// known at all (a condition number near 1e15). The sums of gradients that Quality::width speaks of are, over all
 /// d-simplices, Lambda^-T g for the vectors g of zeros, ones and minus ones whose entries sum to -1, 0 or 1. Where all
 /// coordinates play the same role (a Gram matrix Lambda^T Lambda with equal diagonal and equal off-diagonal entries up
 /// to 1e-12: the Coxeter and Freudenthal triangulations, moved and scaled) only the numbers of ones and minus ones

@@ -187,8 +187,9 @@ class Certifier {
     report_.reason = text.str();
     if (!report_.violation) return;
     report_.verdict = Verdict::kViolated;
-    report_.reason = describe(*report_.violation) + ", near " +
-                     whitney::text(std::span<const double>(report_.violation->points).first(static_cast<std::size_t>(d_)));
+    report_.reason =
+        describe(*report_.violation) + ", near " +
+        whitney::text(std::span<const double>(report_.violation->points).first(static_cast<std::size_t>(d_)));
   }
 
   PerturbedTriangulation& near_;

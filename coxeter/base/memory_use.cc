@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <coxeter/base/memory_use.h>
 
-#include <sys/resource.h>
-#include <unistd.h>
 #include <algorithm>
 #include <fstream>
 #include <limits>
 #include <optional>
 #include <string>
+#include <sys/resource.h>
+#include <unistd.h>
 
 namespace whitney {
 namespace {

@@ -23,7 +23,7 @@ BUGS = (
     Bug(
         "skip_set_flag",
         "a cofacet that was crossed is known on both its sides",
-        (("whitney/tracing/*.cc", "  simplices_.set_flag(id, step.flag);\n", ""),),
+        (("whitney/tracing/*.cc", "  simplices_.set_flag(id, step.over.flag);\n", ""),),
         "whitney",
         "boundary_trace",
         "Boundary.OctantOfTheSphere*:Boundary.CurvesWithEnds",
@@ -56,8 +56,8 @@ BUGS = (
         (
             (
                 "perturbation/certificate_proof.cc",
-                "(R_c + sqrt(R_c * R_c - squared)) + Interval(eta[i]));",
-                "(R_c + sqrt(R_c * R_c - squared)));",
+                "(R_c_ + sqrt(R_c_ * R_c_ - squared)) + Interval(eta_[i]));",
+                "(R_c_ + sqrt(R_c_ * R_c_ - squared)));",
             ),
         ),
         "perturbation",
@@ -69,7 +69,11 @@ BUGS = (
         "no second sheet of the manifold is in a certified simplex",
         (
             ("perturbation/certificate.cc", "    if (!(height < far * far)) return margins;\n", "    (void)far;\n"),
-            ("perturbation/certificate_proof.cc", "    if (!(height[i].sup() < far.inf())) return proof;\n", "    (void)far;\n"),
+            (
+                "perturbation/certificate_proof.cc",
+                "    return std::all_of(height_.begin(), height_.end(), [&](const Interval& h) { return h.sup() < far.inf(); });\n",
+                "    return far.inf() > 0;\n",
+            ),
         ),
         "perturbation",
         "certificate",
@@ -78,7 +82,7 @@ BUGS = (
     Bug(
         "rounding_guard_off",
         "the proof is in interval arithmetic, and hands the rounding mode back",
-        (("perturbation/certificate_proof.cc", "  const Rounding rounding;\n  Interval departure(0);\n", "  Interval departure(0);\n"),),
+        (("perturbation/certificate_proof.cc", "  const Rounding rounding;\n  Attempt(", "  Attempt("),),
         "perturbation",
         "proof_ingredients",
         "RoundingGuard.*",
@@ -143,7 +147,7 @@ BUGS = (
     Bug(
         "region_ignored_in_certify",
         "a walk that keeps to a region is certified away from its boundary",
-        (("perturbation/*.cc", "trace.region && !trace.region(near, other)", "false"),),
+        (("perturbation/*.cc", "trace_.region && !trace_.region(near_, other)", "false"),),
         "whitney",
         "triangulate",
         "Triangulate.APartNearADomainIsCertifiedByItself",

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include <gtest/gtest.h>
 #include <Eigen/LU>
+#include <gtest/gtest.h>
 
 #include <coxeter/base/eigen_view.h>
 #include <coxeter/base/error.h>

@@ -8,9 +8,9 @@
 #include <random>
 #include <vector>
 
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 #include <tests/coxeter/brute_force.h>
-#include <Eigen/LU>
 
 #include <coxeter/base/error.h>
 #include <coxeter/triangulation.h>

@@ -5,8 +5,8 @@
 #include <limits>
 #include <vector>
 
-#include <gtest/gtest.h>
 #include <Eigen/QR>
+#include <gtest/gtest.h>
 
 #include <coxeter/base/eigen_view.h>
 #include <coxeter/base/error.h>

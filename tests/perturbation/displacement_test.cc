@@ -5,8 +5,8 @@
 #include <limits>
 #include <random>
 
-#include <gtest/gtest.h>
 #include <Eigen/LU>
+#include <gtest/gtest.h>
 
 #include <coxeter/base/eigen_view.h>
 #include <coxeter/base/error.h>

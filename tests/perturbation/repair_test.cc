@@ -6,8 +6,8 @@
 #include <tuple>
 #include <vector>
 
-#include <gtest/gtest.h>
 #include <Eigen/Core>
+#include <gtest/gtest.h>
 
 #include <coxeter/base/eigen_view.h>
 #include <coxeter/base/error.h>

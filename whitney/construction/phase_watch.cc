@@ -33,7 +33,7 @@ bool PhaseWatch::fits(std::uint64_t bytes) {
 }
 
 bool PhaseWatch::keep_going(const char* phase, std::size_t simplices, std::size_t evaluations,
-                          std::uint64_t bytes_to_come) {
+                            std::uint64_t bytes_to_come) {
   if (stopped()) return false;
   const double now = seconds();
   if (now > run_.time_limit) {

@@ -130,8 +130,8 @@ void SeedSearch::describe(const FullSimplex& simplex, const std::vector<int>& fa
     for (int q = face[p]; q < face[p + 1]; ++q) found.parts[simplex.order[q]] = p;
 }
 
-// Newton's method on the interpolant from a point, in lattice coordinates: exact as soon as it stays in one simplex. Counts the
-// simplices it examines.
+// Newton's method on the interpolant from a point, in lattice coordinates: exact as soon as it stays in one simplex.
+// Counts the simplices it examines.
 bool SeedSearch::newton(const std::vector<double>& from, Crossing& found, std::size_t& examined) {
   const auto start = as_eigen(from);
   Eigen::VectorXd y = start;

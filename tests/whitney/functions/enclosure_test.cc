@@ -130,8 +130,13 @@ TEST(Enclosure, HoldsSampledValues) {
 
 TEST(Enclosure, ConstantsAreEnclosedNotRounded) {
   const std::vector<std::string> variables{"x"};
-  const std::vector<std::string> texts{"exp(1)*exp(39)-exp(40)+0*x", "0.1+0*x", "0.5+0*x", "1/3+0*x", "pi+0*x",
-                                       "9007199254740993+0*x", "9007199254740993-9007199254740992+0*x",
+  const std::vector<std::string> texts{"exp(1)*exp(39)-exp(40)+0*x",
+                                       "0.1+0*x",
+                                       "0.5+0*x",
+                                       "1/3+0*x",
+                                       "pi+0*x",
+                                       "9007199254740993+0*x",
+                                       "9007199254740993-9007199254740992+0*x",
                                        "321*28059810762433-9007199254740992+0*x"};
   const Enclosure f = Enclosure::of_expressions(variables, texts);
   EXPECT_TRUE(f.has_exact_constants());

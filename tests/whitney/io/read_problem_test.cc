@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Dense>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <Eigen/Dense>
 
 #include <coxeter/base/error.h>
 

@@ -17,7 +17,6 @@
 #include <whitney/io/read_file.h>
 #include <whitney/io/read_mesh.h>
 #include <whitney/io/write_mesh.h>
-
 #include "io/mesh_cases.h"
 
 namespace whitney {

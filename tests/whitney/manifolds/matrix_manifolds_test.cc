@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <whitney/manifolds/matrix_manifolds.h>
 
-#include <gtest/gtest.h>
 #include <Eigen/Dense>
+#include <gtest/gtest.h>
 
 #include <coxeter/base/eigen_view.h>
 #include <coxeter/base/error.h>

@@ -68,7 +68,5 @@ TEST(MakeTriangulation, RejectsBadInput) {
   EXPECT_THROW(make_triangulation({}, 3, NAN), InvalidInput);
 }
 
-
-
 }  // namespace
 }  // namespace whitney

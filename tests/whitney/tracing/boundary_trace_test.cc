@@ -26,7 +26,6 @@
 #include <whitney/tracing/cut_regularity.h>
 #include <whitney/tracing/exact_pivot.h>
 #include <whitney/tracing/trace.h>
-
 #include "tracing/boundary_cases.h"
 
 namespace whitney {

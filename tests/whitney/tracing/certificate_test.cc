@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include <gtest/gtest.h>
 #include <Eigen/QR>
+#include <gtest/gtest.h>
 
 #include <coxeter/base/error.h>
 #include <whitney/functions/expression.h>

@@ -11,7 +11,6 @@
 #include <gtest/gtest.h>
 
 #include <whitney/io/openmesh.h>
-
 #include "test_complexes.h"
 
 namespace whitney::io {
