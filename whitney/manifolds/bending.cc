@@ -157,10 +157,13 @@ double compass(std::size_t num_axes, double step, double last_step, double value
   return value;
 }
 
-}  // namespace
+/// A sample of the manifold, and how far apart its points are (a length).
+struct Sample {
+  std::vector<Foot> feet;
+  double step = 0;
+};
 
-BendingEstimate estimate_bending(const Submanifold& manifold, const EstimateBendingOptions& options) {
-  const Walker walker(manifold);
+Sample sample_of(const Submanifold& manifold, const Walker& walker, const EstimateBendingOptions& options) {
   const std::size_t d = walker.d(), n = walker.n();
   std::vector<Foot> seeds;
   const Vector seed_points = manifold.seed_points();
@@ -176,12 +179,17 @@ BendingEstimate estimate_bending(const Submanifold& manifold, const EstimateBend
                        0.2, 0.9);
     feet = walk(walker, seeds, step, options.max_points);
   }
+  return {std::move(feet), step};
+}
 
-  BendingEstimate result;
-  result.num_points = feet.size();
-  double best_pair = std::numeric_limits<double>::infinity(), best_radius = best_pair;
-
-  // Pairs: the worst partner of every point, then descents of both.
+/// The smallest quotient of a pair of points: the worst partner of every point, then descents of both. The pair goes
+/// into the result.
+double worst_pair(const Walker& walker, const Sample& sample, const EstimateBendingOptions& options,
+                  BendingEstimate& result) {
+  const std::size_t n = walker.n();
+  const std::vector<Foot>& feet = sample.feet;
+  const double step = sample.step;
+  double best_pair = std::numeric_limits<double>::infinity();
   Vector worst(feet.size(), best_pair);
   std::vector<std::size_t> partner(feet.size(), 0);
   for (std::size_t i = 0; i < feet.size(); ++i) {
@@ -213,8 +221,11 @@ BendingEstimate estimate_bending(const Submanifold& manifold, const EstimateBend
       result.q = q.point;
     }
   }
+  return best_pair;
+}
 
-  // Curvature: the worst of a few directions at every point, then descents of point and direction.
+/// Tangent directions to try: the axes and the diagonals between two of them.
+std::vector<Vector> trial_directions(std::size_t n) {
   std::vector<Vector> directions;
   for (std::size_t i = 0; i < n; ++i) {
     directions.emplace_back(n, 0.0)[i] = 1;
@@ -226,8 +237,18 @@ BendingEstimate estimate_bending(const Submanifold& manifold, const EstimateBend
       }
     }
   }
-  // Balances the rounding of feet, eps (reach / step)^2, against (step / reach)^2.
-  const double small_step = 3e-4 * best_pair;
+  return directions;
+}
+
+/// The smallest radius of curvature: the worst of a few directions at every point, then descents of point and
+/// direction. Both go into the result.
+double worst_curvature(const Walker& walker, const Sample& sample, double small_step,
+                       const EstimateBendingOptions& options, BendingEstimate& result) {
+  const std::size_t d = walker.d(), n = walker.n();
+  const std::vector<Foot>& feet = sample.feet;
+  const std::vector<Vector> directions = trial_directions(n);
+  const double step = sample.step;
+  double best_radius = std::numeric_limits<double>::infinity();
   Vector radius(feet.size(), std::numeric_limits<double>::infinity());
   std::vector<std::size_t> along(feet.size(), 0);
   for (std::size_t i = 0; i < feet.size(); ++i) {
@@ -273,6 +294,21 @@ BendingEstimate estimate_bending(const Submanifold& manifold, const EstimateBend
       result.direction = v;
     }
   }
+  return best_radius;
+}
+
+}  // namespace
+
+BendingEstimate estimate_bending(const Submanifold& manifold, const EstimateBendingOptions& options) {
+  const Walker walker(manifold);
+  const std::size_t d = walker.d();
+  const Sample sample = sample_of(manifold, walker, options);
+  BendingEstimate result;
+  result.num_points = sample.feet.size();
+  const double best_pair = worst_pair(walker, sample, options, result);
+  // Balances the rounding of feet, eps (reach / step)^2, against (step / reach)^2.
+  const double small_step = 3e-4 * best_pair;
+  const double best_radius = worst_curvature(walker, sample, small_step, options, result);
   result.bending = {std::min(best_pair, best_radius), best_radius, Bending::Source::kEstimated};
   if (best_radius < best_pair) {
     result.p = result.q = result.most_curved;

@@ -16,7 +16,7 @@ namespace {
 
 double volume_of_cells(const WhitneyCase& c) {
   SimplicialMesh whole{c.result.complex.ambient_dim, c.result.complex.ambient_dim, {}, {}};
-  const int d = whole.dim, n = c.result.complex.intrinsic_dim;
+  const int n = c.result.complex.intrinsic_dim;
   double sum = 0;
   for (std::size_t i = 0; i < c.result.complex.num_cells(n); ++i) {
     whole.points.clear();

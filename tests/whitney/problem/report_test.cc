@@ -13,7 +13,7 @@ TEST(Report, StoppedAndSingular) {
   EXPECT_FALSE(report.stopped());
   report.stop_reason = StopReason::kMemoryLimit;
   EXPECT_TRUE(report.stopped());
-  report.charts.push_back({.name = "A", .singular_points = {{1, 2}}});
+  report.charts.emplace_back().singular_points = {{1, 2}};
   EXPECT_TRUE(report.singular());
 }
 
