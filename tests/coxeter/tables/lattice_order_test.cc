@@ -15,7 +15,9 @@ TEST(LatticeOrder, AgreesWithAComparisonSort) {
     std::vector<std::vector<std::int32_t>> rows;
     std::vector<std::int32_t> flat;
     for (int i = 0; i < 500; ++i) {
-      rows.push_back({int(rng() % (2u * spread)) - spread, int(rng() % 3), int(rng() % (2u * spread)) - spread});
+      const auto draw = [&] { return static_cast<std::int32_t>(std::int64_t(rng() % (2u * spread)) - spread); };
+      const std::int32_t first = draw(), second = static_cast<std::int32_t>(rng() % 3);
+      rows.push_back({first, second, draw()});
       flat.insert(flat.end(), rows.back().begin(), rows.back().end());
     }
     const auto order = whitney::coxeter::lexicographic_order(flat, 3);
